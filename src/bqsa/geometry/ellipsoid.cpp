@@ -1,0 +1,109 @@
+#include "bqsa/geometry/ellipsoid.hpp"
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace bqsa {
+namespace {
+
+/// The triangular factor of diag(1/a) Rᵀ. Extended precision makes its rounding error that of one
+/// final rounding to double, which the bound in rounding.hpp relies on.
+template <int Dim>
+Eigen::Matrix<double, Dim, Dim> triangular_unit_map(
+    const Eigen::Matrix<double, Dim, 1>& semi_axes,
+    const Eigen::Matrix<double, Dim, Dim>& rotation) {
+  using Extended = Eigen::Matrix<long double, Dim, Dim>;
+  const Extended full = semi_axes.template cast<long double>().cwiseInverse().asDiagonal() *
+                        rotation.template cast<long double>().transpose();
+  const Eigen::HouseholderQR<Extended> qr(full);
+  Extended triangular = Extended::Zero();
+  triangular.template triangularView<Eigen::Upper>() = qr.matrixQR();
+  return triangular.template cast<double>();
+}
+
+/// Semi-axes of the outer ellipsoid of the sum with a ball; the axes keep their directions.
+template <int Dim>
+Eigen::Matrix<double, Dim, 1> outer_semi_axes(const Eigen::Matrix<double, Dim, 1>& semi_axes,
+                                              double radius) {
+  const double p = semi_axes.norm() / (std::sqrt(double{Dim}) * radius);
+  return ((1 + 1 / p) * semi_axes.array().square() + radius * radius * (1 + p)).sqrt();
+}
+
+}  // namespace
+
+template <int Dim>
+EllipsoidN<Dim>::EllipsoidN(const Vector& center, const Vector& semi_axes, const Matrix& rotation)
+    : center_(center), semi_axes_(semi_axes), rotation_(rotation) {
+  if (!center.allFinite()) throw std::invalid_argument("ellipsoid: the centre must be finite");
+  if (!semi_axes.allFinite() || !(semi_axes.minCoeff() > 0)) {
+    throw std::invalid_argument("ellipsoid: semi-axes must be positive and finite");
+  }
+  if (!rotation.isUnitary(1e-9) || !(rotation.determinant() > 0)) {
+    throw std::invalid_argument("ellipsoid: the rotation must be orthonormal and right-handed");
+  }
+  unit_map_ = triangular_unit_map<Dim>(semi_axes_, rotation_);
+}
+
+template <int Dim>
+typename EllipsoidN<Dim>::Matrix EllipsoidN<Dim>::quadratic_form() const {
+  return unit_map_.transpose() * unit_map_;
+}
+
+template <int Dim>
+EllipsoidN<Dim> EllipsoidN<Dim>::grown(double offset) const {
+  return {center_, Vector(semi_axes_.array() + offset), rotation_};
+}
+
+Ellipse rotated_ellipse(const Eigen::Vector2d& center, const Eigen::Vector2d& semi_axes,
+                        double angle) {
+  return {center, semi_axes, Eigen::Rotation2Dd(angle).toRotationMatrix()};
+}
+
+Ellipsoid embedded(const Ellipse& ellipse) {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  rotation.topLeftCorner<2, 2>() = ellipse.rotation();
+  const Eigen::Vector2d& a = ellipse.semi_axes();
+  return {{ellipse.center().x(), ellipse.center().y(), 0.0},
+          {a.x(), a.y(), a.maxCoeff()},
+          rotation};
+}
+
+Ellipse planar_section(const Ellipsoid& ellipsoid) {
+  return {ellipsoid.center().head<2>(), ellipsoid.semi_axes().head<2>(),
+          ellipsoid.rotation().topLeftCorner<2, 2>()};
+}
+
+Ellipse shadow(const Ellipsoid& ellipsoid, const Eigen::Matrix<double, 2, 3>& selector) {
+  const Eigen::Matrix<double, 2, 3> axes =
+      selector * ellipsoid.rotation() * ellipsoid.semi_axes().asDiagonal();
+  const Eigen::JacobiSVD<Eigen::Matrix<double, 2, 3>> svd(axes, Eigen::ComputeFullU);
+  Eigen::Matrix2d rotation = svd.matrixU();
+  if (rotation.determinant() < 0) rotation.col(1) = -rotation.col(1);
+  return {selector * ellipsoid.center(), svd.singularValues(), rotation};
+}
+
+template <int Dim>
+EllipsoidN<Dim> outer_bound(const EllipsoidN<Dim>& ellipsoid, double radius) {
+  if (radius == 0) return ellipsoid;
+  return {ellipsoid.center(), outer_semi_axes<Dim>(ellipsoid.semi_axes(), radius),
+          ellipsoid.rotation()};
+}
+
+template <int Dim>
+double outer_bound_excess(const EllipsoidN<Dim>& ellipsoid, double radius) {
+  if (radius == 0) return 0;
+  const Eigen::Matrix<double, Dim, 1> outer = outer_semi_axes<Dim>(ellipsoid.semi_axes(), radius);
+  return (outer - ellipsoid.semi_axes()).maxCoeff() - radius;
+}
+
+template class EllipsoidN<2>;
+template class EllipsoidN<3>;
+template EllipsoidN<2> outer_bound(const EllipsoidN<2>&, double);
+template EllipsoidN<3> outer_bound(const EllipsoidN<3>&, double);
+template double outer_bound_excess(const EllipsoidN<2>&, double);
+template double outer_bound_excess(const EllipsoidN<3>&, double);
+
+}  // namespace bqsa

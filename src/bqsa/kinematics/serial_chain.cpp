@@ -1,0 +1,115 @@
+#include "bqsa/kinematics/serial_chain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace bqsa {
+namespace {
+
+void validate(const ChainDescription& chain) {
+  if (chain.rows.empty() || chain.rows.size() > kMaxJoints) {
+    throw std::invalid_argument("serial chain: expected 1 to 16 joints, got " +
+                                std::to_string(chain.rows.size()));
+  }
+  if (chain.dimension != 2 && chain.dimension != 3) {
+    throw std::invalid_argument("serial chain: the dimension must be 2 or 3");
+  }
+  bool finite = chain.R_WB.allFinite() && chain.p_WB.allFinite() && chain.p_LT.allFinite();
+  for (const DhRow& row : chain.rows) {
+    finite = finite && std::isfinite(row.a) && std::isfinite(row.alpha) && std::isfinite(row.d) &&
+             std::isfinite(row.offset);
+  }
+  if (!finite) throw std::invalid_argument("serial chain: all parameters must be finite");
+}
+
+}  // namespace
+
+SerialChain::SerialChain(ChainDescription description) : description_(std::move(description)) {
+  validate(description_);
+  const bool modified = description_.convention == DhConvention::kModified;
+  const bool tool = description_.p_LT.squaredNorm() > 0;
+  joints_ = static_cast<int>(description_.rows.size());
+  points_ = joints_ + 1 + (tool ? 1 : 0);
+
+  // Link i ends in the origin of frame i. By the modified convention that origin lies on the axis of
+  // joint i, so joint i does not move it.
+  moving_joints_.assign(static_cast<std::size_t>(points_), joints_);
+  Eigen::VectorXd length(points_ - 1);
+  cos_sin_alpha_.resize(joints_, 2);
+  for (int j = 0; j < joints_; ++j) {
+    const DhRow& row = description_.rows[static_cast<std::size_t>(j)];
+    moving_joints_[static_cast<std::size_t>(j)] = modified ? std::max(j - 1, 0) : j;
+    length(j) = std::hypot(row.a, row.d);
+    cos_sin_alpha_.row(j) << std::cos(row.alpha), std::sin(row.alpha);
+  }
+  moving_joints_[static_cast<std::size_t>(joints_)] = modified ? joints_ - 1 : joints_;
+  if (tool) length(joints_) = description_.p_LT.norm();
+  for (int k = 0; k + 1 < points_; ++k) {
+    if (length(k) > 0) links_.push_back({k + 1, k, k + 1});
+  }
+
+  // The axis of joint j passes through the origin of frame j - 1 (standard) or j (modified), so the
+  // lengths between there and point k bound the distance.
+  reach_ = Eigen::MatrixXd::Zero(joints_, points_);
+  for (int j = 0; j < joints_; ++j) {
+    const int pivot = modified ? j + 1 : j;
+    for (int k = pivot; k < points_; ++k) {
+      if (j < moving_joints(k)) reach_(j, k) = length.segment(pivot, k - pivot).sum();
+    }
+  }
+}
+
+void SerialChain::forward(const JointVector& q, ChainPose& pose) const {
+  const bool modified = description_.convention == DhConvention::kModified;
+  pose.p_WO.resize(3, points_);
+  pose.axis_W.resize(3, joints_);
+  pose.pivot_W.resize(3, joints_);
+
+  Eigen::Matrix3d R = description_.R_WB;
+  Eigen::Vector3d p = description_.p_WB;
+  pose.p_WO.col(0) = p;
+  for (int j = 0; j < joints_; ++j) {
+    const DhRow& row = description_.rows[static_cast<std::size_t>(j)];
+    const double c = std::cos(q(j) + row.offset);
+    const double s = std::sin(q(j) + row.offset);
+    const double ca = cos_sin_alpha_(j, 0);
+    const double sa = cos_sin_alpha_(j, 1);
+    const Eigen::Vector3d x = R.col(0), y = R.col(1), z = R.col(2);
+    if (modified) {
+      const Eigen::Vector3d y1 = ca * y + sa * z;
+      const Eigen::Vector3d z1 = ca * z - sa * y;
+      p += row.a * x + row.d * z1;
+      pose.axis_W.col(j) = z1;
+      pose.pivot_W.col(j) = p;
+      R.col(0) = c * x + s * y1;
+      R.col(1) = c * y1 - s * x;
+      R.col(2) = z1;
+    } else {
+      const Eigen::Vector3d x1 = c * x + s * y;
+      const Eigen::Vector3d y1 = c * y - s * x;
+      pose.axis_W.col(j) = z;
+      pose.pivot_W.col(j) = p;
+      p += row.d * z + row.a * x1;
+      R.col(0) = x1;
+      R.col(1) = ca * y1 + sa * z;
+      R.col(2) = ca * z - sa * y1;
+    }
+    pose.p_WO.col(j + 1) = p;
+  }
+  if (points_ > joints_ + 1) pose.p_WO.col(joints_ + 1) = p + R * description_.p_LT;
+}
+
+void SerialChain::jacobian(const ChainPose& pose, int point, TaskJacobian& J) const {
+  J.setZero(dimension(), joints_);
+  const Eigen::Vector3d p = pose.p_WO.col(point);
+  for (int j = 0; j < moving_joints(point); ++j) {
+    const Eigen::Vector3d axis = pose.axis_W.col(j);
+    const Eigen::Vector3d arm = p - pose.pivot_W.col(j);
+    J.col(j) = axis.cross(arm).head(dimension());
+  }
+}
+
+}  // namespace bqsa

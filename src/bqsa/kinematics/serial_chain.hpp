@@ -1,0 +1,80 @@
+/// @file
+/// Forward kinematics and Jacobians of every link end-point in one pass, without allocation.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "bqsa/kinematics/chain_description.hpp"
+
+namespace bqsa {
+
+inline constexpr int kMaxJoints = 16;
+inline constexpr int kMaxLinks = kMaxJoints + 1;   ///< a tool is one more link
+inline constexpr int kMaxPoints = kMaxLinks + 1;
+inline constexpr int kMaxTaskRows = 6;
+
+/// One number a joint [rad, rad/s, ...]; its storage is part of the object.
+using JointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxJoints, 1>;
+
+/// Task rows x joints; its storage is part of the object.
+using TaskJacobian =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxTaskRows, kMaxJoints>;
+
+/// A link segment between two points of the chain. Links of zero length are left out of a chain's
+/// list, and the others keep their numbers.
+struct Link {
+  int number;  ///< the paper's i: 1-based row of the Denavit-Hartenberg table; a tool is n + 1
+  int start;   ///< index of O_i in ChainPose::p_WO
+  int end;     ///< index of O_{i+1}
+};
+
+/// Where everything is for one joint vector, in W.
+struct ChainPose {
+  template <int MaxColumns>
+  using Columns = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, MaxColumns>;
+
+  Columns<kMaxPoints> p_WO;     ///< column k is the paper's O_{k+1}: the base, each frame's origin, the tip [m]
+  Columns<kMaxJoints> axis_W;   ///< column j is the unit axis of joint j
+  Columns<kMaxJoints> pivot_W;  ///< column j is a point on the axis of joint j [m]
+
+  Eigen::Vector3d tip() const { return p_WO.rightCols<1>(); }
+};
+
+/// A chain of up to 16 revolute joints. Immutable.
+class SerialChain {
+ public:
+  /// @throws std::invalid_argument if there are no joints, more than 16, or a number is not finite
+  explicit SerialChain(ChainDescription description);
+
+  const ChainDescription& description() const { return description_; }
+  int joints() const { return joints_; }
+  int dimension() const { return description_.dimension; }  ///< rows of the tip task: 2 or 3
+  int points() const { return points_; }                    ///< columns of ChainPose::p_WO
+  std::span<const Link> links() const { return links_; }    ///< base to tip
+
+  /// All end-points and joint axes for q [rad].
+  void forward(const JointVector& q, ChainPose& pose) const;
+
+  /// Joints 0 .. moving_joints(k) - 1 are those that can move point k.
+  int moving_joints(int point) const { return moving_joints_[static_cast<std::size_t>(point)]; }
+
+  /// Translational Jacobian of point k: dimension() x joints() [m/rad].
+  void jacobian(const ChainPose& pose, int point, TaskJacobian& J) const;
+
+  /// Bound, over all joint angles, of the distance between the axis of joint j and point k [m];
+  /// 0 if joint j cannot move the point.
+  double reach(int joint, int point) const { return reach_(joint, point); }
+
+ private:
+  ChainDescription description_;
+  int joints_;
+  int points_;
+  std::vector<Link> links_;
+  std::vector<int> moving_joints_;
+  Eigen::Matrix<double, Eigen::Dynamic, 2> cos_sin_alpha_;  // a row a joint
+  Eigen::MatrixXd reach_;                                   // joints x points
+};
+
+}  // namespace bqsa

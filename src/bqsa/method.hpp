@@ -1,0 +1,139 @@
+/// @file
+/// The contract that every method signs, BQSA and its rivals alike.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bqsa/parameters.hpp"
+#include "bqsa/problem.hpp"
+
+namespace bqsa {
+
+/// What a method can be asked to do. A pair of method and problem that does not fit is reported as
+/// "not applicable", not as failed.
+struct Capabilities {
+  bool planar = false;       ///< problems of dimension 2
+  bool spatial = false;      ///< problems of dimension 3
+  bool link_radius = false;  ///< keeps links of positive radius free
+  bool margin = false;       ///< keeps the problem's margin
+};
+
+/// Why a method does not apply to a problem; empty if it does.
+std::string why_not_applicable(const Capabilities& capabilities, const Problem& problem);
+
+/// Work done since `prepare`, in exact counts. Claims of complexity are compared with these.
+struct WorkCounters {
+  std::uint64_t quadratics = 0;        ///< segment-ellipsoid quadratics evaluated (all purposes)
+  std::uint64_t point_pairs = 0;       ///< test-point pairs compared
+  std::uint64_t distance_queries = 0;  ///< exact or library distance queries
+  std::uint64_t kinematics = 0;        ///< forward kinematics of the whole chain
+  std::uint64_t jacobians = 0;         ///< Jacobians of one point
+  std::uint64_t linear_solves = 0;     ///< decompositions of a task matrix
+  std::uint64_t iterations = 0;        ///< steps of the method's inner searches
+};
+
+/// How a control tick ended.
+enum class TickState {
+  kFree,        ///< the predicted motion was free
+  kClamped,     ///< links had to be moved out of obstacles, and were
+  kInfeasible,  ///< no free motion was found; the arm holds its last safe configuration
+};
+
+/// Why a tick was infeasible.
+enum class Infeasible {
+  kNot,
+  kNoFreeConfiguration,  ///< no self-motion within the search range frees the link
+  kNoFreeMotion,         ///< free configurations exist, but no certified motion to one of them
+  kStepTooLarge,         ///< the predicted motion exceeds a joint's largest step per tick
+  kJointLimit,           ///< the predicted configuration exceeds a joint limit
+  kDiverged,             ///< a correction did not converge (singular arm, or path out of reach)
+};
+
+/// One link moved out of one obstacle.
+struct Clamp {
+  int link = 0;        ///< the paper's i
+  int obstacle = 0;    ///< index into Problem::obstacles
+  int anchor = 0;      ///< a: links 1 .. a moved; for spatial methods the number of joints
+  double offset = 0;   ///< how far: turn of the link (planar) or largest joint change (spatial) [rad]
+  int increments = 0;  ///< clamping increments tried
+};
+
+struct StepInput {
+  int tick = 0;                ///< 1 .. ticks
+  double t = 0;                ///< time at the end of the step [s]
+  Eigen::Vector3d p_WT_desired = Eigen::Vector3d::Zero();  ///< x_d(t) [m]
+  JointVector q;               ///< joint angles at the start of the step [rad]
+};
+
+struct StepOutput {
+  static constexpr int kMaxClamps = 32;
+
+  JointVector q;                       ///< joint angles to be reached at time t [rad]
+  TickState state = TickState::kFree;
+  Infeasible reason = Infeasible::kNot;
+  int link = 0;                        ///< infeasible: the link that could not be freed, else 0
+  int obstacle = -1;                   ///< infeasible: index of its obstacle, else -1
+  int clamp_count = 0;                 ///< valid entries of `clamps`
+  std::array<Clamp, kMaxClamps> clamps{};
+  bool guard_fired = false;            ///< the paper variant fell back to the exact configuration
+};
+
+/// Joint angles at the ticks; row 0 is the start.
+struct Trajectory {
+  std::vector<double> t;       ///< [s]
+  std::vector<JointVector> q;  ///< [rad]
+};
+
+/// Base of all methods. A method sees the problem and nothing of the judge.
+class Method {
+ public:
+  virtual ~Method() = default;
+
+  /// Called once before anything else; the problem outlives the method. May allocate.
+  virtual void prepare(const Problem& problem) = 0;
+
+  const WorkCounters& counters() const { return counters_; }
+
+ protected:
+  WorkCounters counters_;
+};
+
+/// A method that answers tick by tick.
+class ReactiveMethod : public Method {
+ public:
+  /// One control period. Must not look at the clock or allocate once warm.
+  virtual void step(const StepInput& input, StepOutput& output) = 0;
+};
+
+/// A method that answers with the whole trajectory.
+class PlanningMethod : public Method {
+ public:
+  struct Plan {
+    bool solved = false;  ///< what the method claims
+    Trajectory trajectory;
+  };
+
+  /// @param budget_s  wall time that the method may use [s]
+  /// @param seed      of all randomness
+  virtual Plan plan(double budget_s, std::uint64_t seed) = 0;
+};
+
+/// A method as the harness lists it: what it is, what it can, and how to make one.
+struct MethodEntry {
+  std::string name;     ///< [a-z0-9_]+
+  std::string summary;  ///< one line
+  std::string source;   ///< publication
+  Capabilities capabilities;
+  std::vector<ParameterDeclaration> parameters;
+  std::function<std::unique_ptr<Method>(const ParameterValues&)> make;
+};
+
+const char* name_of(TickState state);
+const char* name_of(Infeasible reason);
+
+}  // namespace bqsa

@@ -1,0 +1,65 @@
+/// @file
+/// The problem that every method is given, byte for byte the same.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "bqsa/geometry/ellipsoid.hpp"
+#include "bqsa/kinematics/serial_chain.hpp"
+
+namespace bqsa {
+
+/// An obstacle that no link may enter. Planar problems hold ellipses as `embedded` ellipsoids.
+struct Obstacle {
+  std::string name;
+  Ellipsoid shape;
+};
+
+/// Bounds a joint; empty vectors mean unlimited.
+struct JointLimits {
+  JointVector lower;         ///< [rad]
+  JointVector upper;         ///< [rad]
+  JointVector max_velocity;  ///< [rad/s]
+};
+
+/// Largest joint step between two ticks where no velocity limit is given [rad].
+inline constexpr double kDefaultMaxStep = 15.0 * std::numbers::pi / 180.0;
+
+/// Follow x_d(t) with the tip from `start` on, no link in any obstacle at any time. SI units, frame W.
+struct Problem {
+  std::string name;
+  SerialChain chain;
+  std::vector<Obstacle> obstacles;
+
+  /// Desired tip position x_d(t) for t in [0, duration()] [s -> m]. Planar problems leave z = 0.
+  std::function<Eigen::Vector3d(double)> desired_tip;
+  int ticks = 0;  ///< control periods; the trajectory has ticks + 1 rows, row 0 is `start`
+  double dt = 0;  ///< control period [s]
+
+  JointVector start;        ///< joint angles at t = 0 [rad]
+  JointLimits limits;       ///< optional
+  double link_radius = 0;   ///< every link is a capsule of this radius [m]
+  double margin = 0;        ///< clearance that methods are asked to keep [m]
+  double tolerance = 1e-3;  ///< largest tip error at ticks that counts as success [m]
+
+  double time(int tick) const { return tick * dt; }
+  double duration() const { return ticks * dt; }
+  int dimension() const { return chain.dimension(); }
+
+  /// Largest step that joint j may make in one tick [rad].
+  double max_step(int joint) const {
+    return limits.max_velocity.size() > 0 ? limits.max_velocity(joint) * dt : kDefaultMaxStep;
+  }
+
+  /// Whether q [rad] keeps the joint limits.
+  bool within_limits(const JointVector& q) const {
+    return (limits.lower.size() == 0 || (q.array() >= limits.lower.array()).all()) &&
+           (limits.upper.size() == 0 || (q.array() <= limits.upper.array()).all());
+  }
+};
+
+}  // namespace bqsa

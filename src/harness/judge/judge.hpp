@@ -1,0 +1,83 @@
+/// @file
+/// The judge: decides success from the joint trajectory alone, with kinematics and distances of its own.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "bqsa/method.hpp"
+#include "bqsa/problem.hpp"
+
+namespace bqsa::harness {
+
+/// Ways to fail. A run succeeds when none applies.
+enum class Failure {
+  kDisagreement,  ///< FCL and the exact distance contradict each other beyond the touching band
+  kNotFinite,     ///< a number that is not finite
+  kIncomplete,    ///< rows missing (a method that stopped) or too many, or wrong times or width
+  kWrongStart,    ///< row 0 is not the problem's start
+  kCollision,     ///< a link in an obstacle, at or between ticks
+  kUndecided,     ///< freedom between two ticks could not be proven within the limit on subdivisions
+  kJump,          ///< a joint step beyond the velocity limit (default 15 degrees a tick)
+  kJointLimit,    ///< a joint beyond its limits
+  kDrift,         ///< tip error at a tick beyond the scenario's tolerance
+};
+
+/// A link in an obstacle. Names as in the paper: (6, obstacle).
+struct Contact {
+  int link = 0;           ///< 1-based Denavit-Hartenberg row; a tool is one more
+  int obstacle = 0;       ///< index into Problem::obstacles
+  int first_tick = 0;     ///< first tick at whose end, or in the motion to which, it is in contact
+  bool at_tick = false;   ///< seen at a tick, not only between two
+  int ticks = 0;          ///< number of ticks at which it is in contact
+};
+
+/// Tip error in metres.
+struct TipError {
+  double mean = 0;
+  double rms = 0;
+  double max = 0;
+  Eigen::Vector3d max_per_axis = Eigen::Vector3d::Zero();
+  int max_tick = 0;  ///< tick of the largest error; between ticks: the tick that ends the motion
+};
+
+struct Judgement {
+  std::vector<Failure> failures;  ///< each at most once, in the order of the enum
+  bool success() const { return failures.empty(); }
+
+  int rows = 0;                   ///< rows judged
+  std::vector<Contact> contacts;  ///< link-obstacle pairs in collision, by first tick
+  std::string disagreement;       ///< where and by how much FCL and the exact distance differ
+
+  bool touching = false;          ///< came within 1e-3 mm of contact: free, flagged
+  double clearance_at_ticks = 0;  ///< smallest distance of a link (with its radius) to an obstacle [m]
+  double clearance = 0;           ///< the same at ticks and at all configurations visited in between [m]
+
+  TipError at_ticks;              ///< counted from tick 1
+  TipError between_ticks;         ///< sampled on the straight joint motion, against x_d at that time
+  double start_error = 0;         ///< tip error of row 0 [m]
+  double max_joint_step = 0;      ///< largest joint step of one tick [rad]
+  int max_joint_step_tick = 0;
+};
+
+/// Judges trajectories of one problem. Shares no code with src/bqsa but the plain data it reads.
+class Judge {
+ public:
+  /// Clearance within this of contact, on either side, is "touching" [m].
+  static constexpr double kTouching = 1e-6;
+
+  /// Runs the self-test of FCL.
+  /// @throws std::runtime_error if FCL fails one of its known hits or misses
+  explicit Judge(const Problem& problem);
+
+  /// Any trajectory is judged; none is trusted. Nothing is thrown for a bad one.
+  Judgement judge(const Trajectory& trajectory) const;
+
+ private:
+  const Problem& problem_;
+};
+
+const char* name_of(Failure failure);
+
+}  // namespace bqsa::harness

@@ -1,0 +1,25 @@
+/// @file
+/// Scenario files (schema bqsa-scenario/1): the only door through which problems enter.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "bqsa/problem.hpp"
+#include "harness/input_error.hpp"
+
+namespace bqsa::harness {
+
+/// A problem with where it came from.
+struct Scenario {
+  std::filesystem::path file;
+  std::string description;
+  std::string sha256;  ///< of the file's bytes, as `sha256sum` prints it
+  Problem problem;     ///< its name is the scenario's
+};
+
+/// Reads and validates one scenario file, converting to SI units.
+/// @throws InputError naming file, line, key, what was expected and what was found
+Scenario load_scenario(const std::filesystem::path& file);
+
+}  // namespace bqsa::harness
