@@ -1,7 +1,25 @@
-# One function for every target of the project: C++20, warnings, no compiler extensions.
+# What all targets of the project share: C++20 without extensions, warnings, sanitizers on request.
+option(BQSA_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
+
 function(bqsa_target name)
   target_compile_features(${name} PUBLIC cxx_std_20)
   set_target_properties(${name} PROPERTIES CXX_EXTENSIONS OFF)
   target_compile_options(${name} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
     $<$<BOOL:${BQSA_WARNINGS_AS_ERRORS}>:-Werror>)
+  if(BQSA_SANITIZE)
+    target_compile_options(${name} PUBLIC
+      $<BUILD_INTERFACE:-O1;-fsanitize=address,undefined;-fno-sanitize-recover=all>)
+    target_link_options(${name} PUBLIC $<BUILD_INTERFACE:-fsanitize=address,undefined>)
+  endif()
+endfunction()
+
+# A GoogleTest program: bqsa_test(NAME SOURCES ... LIBRARIES ...). Every test in it is one CTest.
+function(bqsa_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  bqsa_target(${name})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  target_compile_definitions(${name} PRIVATE BQSA_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gtest_main GTest::gmock)
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 endfunction()
