@@ -1,5 +1,6 @@
 /// @file
-/// The judge's own exact distance between a segment and a solid ellipsoid. Shares no code with src/bqsa.
+/// The judge's own exact distance between a segment and a solid ellipsoid. Shares no code with
+/// src/bqsa.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,9 +15,12 @@ struct SegmentDistance {
   /// If they meet: an upper bound of the shortest translation that separates them, exact to first
   /// order for shallow penetrations; else 0.
   double depth = 0;
-  double t = 0;         ///< parameter of the closest (or deepest) point of the segment
+  double t = 0;  ///< parameter of the closest (or deepest) point of the segment
   Eigen::Vector3d on_segment = Eigen::Vector3d::Zero();
   Eigen::Vector3d on_ellipsoid = Eigen::Vector3d::Zero();
+  /// Unit normal of a plane that proves the result: over the segment, normal . (x - centre) exceeds
+  /// its largest value over the ellipsoid by clearance(), to rounding.
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();
 
   /// Signed: distance, or minus depth.
   double clearance() const { return distance > 0 ? distance : -depth; }
