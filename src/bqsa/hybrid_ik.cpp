@@ -37,16 +37,9 @@ void solve_hybrid_ik(const TaskJacobian& J, const TaskVector& x_dot, const Joint
   // In the coordinates of the singular vectors: a_i = u_iᵀ x_dot and, for the self-motion, what
   // W^{1/2} phi has along v_i is taken away.
   JointVector weighted = root_w.cwiseProduct(phi);
-  double residual_squared = 0;
-  for (Eigen::Index i = 0; i < m; ++i) {
+  for (Eigen::Index i = 0; i < rank; ++i) {
     const double a = svd.matrixU().col(i).dot(x_dot);
-    if (i >= rank) {
-      residual_squared += a * a;
-      continue;
-    }
     const double damped = s(i) * s(i) + lambda_squared;
-    const double lost = lambda_squared / damped * a;
-    residual_squared += lost * lost;
     const double along = svd.matrixV().col(i).dot(weighted);
     weighted += (s(i) / damped * a - along) * svd.matrixV().col(i);
   }
@@ -55,7 +48,7 @@ void solve_hybrid_ik(const TaskJacobian& J, const TaskVector& x_dot, const Joint
   result.rank = static_cast<int>(rank);
   result.smallest_singular = s(m - 1);
   result.lambda = std::sqrt(lambda_squared);
-  result.residual = std::sqrt(residual_squared);
+  result.residual = (x_dot - J * result.q_dot).norm();
 }
 
 }  // namespace bqsa

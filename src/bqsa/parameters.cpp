@@ -83,9 +83,9 @@ void ParameterValues::set(std::string_view name, std::string_view text) {
   if (i == declarations_.size()) {
     std::vector<std::string> known;
     for (const ParameterDeclaration& parameter : declarations_) known.push_back(parameter.name);
-    throw ParameterError("unknown parameter '" + std::string(name) + "': expected " +
-                         (known.empty() ? "none (the method has no parameters)"
-                                        : "one of " + joined(known)));
+    throw ParameterError(
+        "unknown parameter '" + std::string(name) + "': expected " +
+        (known.empty() ? "none (the method has no parameters)" : "one of " + joined(known)));
   }
   values_[i] = parse(declarations_[i], text);
 }

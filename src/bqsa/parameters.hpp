@@ -19,7 +19,8 @@ struct ParameterDeclaration {
   double maximum = 0;
   std::string meaning;
   bool integer = false;
-  std::vector<std::string> choices = {};  ///< if not empty, values are these names; default_value indexes them
+  std::vector<std::string> choices =
+      {};  ///< if not empty, values are these names; default_value indexes them
 };
 
 /// A whole number in [minimum, maximum].

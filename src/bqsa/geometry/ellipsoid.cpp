@@ -4,10 +4,16 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace bqsa {
 namespace {
+
+/// Largest departure from orthonormality that passes for rounding.
+constexpr double kRotationTolerance = 1e-9;
+
+static_assert(std::numeric_limits<long double>::digits >= 64, "no type beyond double precision");
 
 /// The triangular factor of diag(1/a) Rᵀ. Extended precision makes its rounding error that of one
 /// final rounding to double, which the bound in rounding.hpp relies on.
@@ -41,7 +47,7 @@ EllipsoidN<Dim>::EllipsoidN(const Vector& center, const Vector& semi_axes, const
   if (!semi_axes.allFinite() || !(semi_axes.minCoeff() > 0)) {
     throw std::invalid_argument("ellipsoid: semi-axes must be positive and finite");
   }
-  if (!rotation.isUnitary(1e-9) || !(rotation.determinant() > 0)) {
+  if (!rotation.isUnitary(kRotationTolerance) || !(rotation.determinant() > 0)) {
     throw std::invalid_argument("ellipsoid: the rotation must be orthonormal and right-handed");
   }
   unit_map_ = triangular_unit_map<Dim>(semi_axes_, rotation_);
@@ -66,9 +72,8 @@ Ellipsoid embedded(const Ellipse& ellipse) {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   rotation.topLeftCorner<2, 2>() = ellipse.rotation();
   const Eigen::Vector2d& a = ellipse.semi_axes();
-  return {{ellipse.center().x(), ellipse.center().y(), 0.0},
-          {a.x(), a.y(), a.maxCoeff()},
-          rotation};
+  return {
+      {ellipse.center().x(), ellipse.center().y(), 0.0}, {a.x(), a.y(), a.maxCoeff()}, rotation};
 }
 
 Ellipse planar_section(const Ellipsoid& ellipsoid) {
@@ -77,6 +82,9 @@ Ellipse planar_section(const Ellipsoid& ellipsoid) {
 }
 
 Ellipse shadow(const Ellipsoid& ellipsoid, const Eigen::Matrix<double, 2, 3>& selector) {
+  if (!selector.transpose().isUnitary(kRotationTolerance)) {
+    throw std::invalid_argument("shadow: the rows of the selector must be orthonormal");
+  }
   const Eigen::Matrix<double, 2, 3> axes =
       selector * ellipsoid.rotation() * ellipsoid.semi_axes().asDiagonal();
   const Eigen::JacobiSVD<Eigen::Matrix<double, 2, 3>> svd(axes, Eigen::ComputeFullU);
@@ -87,6 +95,7 @@ Ellipse shadow(const Ellipsoid& ellipsoid, const Eigen::Matrix<double, 2, 3>& se
 
 template <int Dim>
 EllipsoidN<Dim> outer_bound(const EllipsoidN<Dim>& ellipsoid, double radius) {
+  if (!(radius >= 0)) throw std::invalid_argument("outer bound: the radius must not be negative");
   if (radius == 0) return ellipsoid;
   return {ellipsoid.center(), outer_semi_axes<Dim>(ellipsoid.semi_axes(), radius),
           ellipsoid.rotation()};
@@ -94,9 +103,8 @@ EllipsoidN<Dim> outer_bound(const EllipsoidN<Dim>& ellipsoid, double radius) {
 
 template <int Dim>
 double outer_bound_excess(const EllipsoidN<Dim>& ellipsoid, double radius) {
-  if (radius == 0) return 0;
-  const Eigen::Matrix<double, Dim, 1> outer = outer_semi_axes<Dim>(ellipsoid.semi_axes(), radius);
-  return (outer - ellipsoid.semi_axes()).maxCoeff() - radius;
+  const EllipsoidN<Dim> outer = outer_bound(ellipsoid, radius);
+  return (outer.semi_axes() - ellipsoid.semi_axes()).maxCoeff() - radius;
 }
 
 template class EllipsoidN<2>;

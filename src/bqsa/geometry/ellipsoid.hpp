@@ -7,11 +7,12 @@
 
 namespace bqsa {
 
-/// The solid ellipsoid {p : |T (p - c)| <= 1} in Dim = 2 or 3 dimensions, frame W, lengths in metres.
+/// The solid ellipsoid {p : |T (p - c)| <= 1} in Dim = 2 or 3 dimensions, frame W, lengths in
+/// metres.
 ///
-/// T maps the ellipsoid to the unit ball and is upper triangular: T = O diag(1/a) Rᵀ for semi-axes a,
-/// rotation R and some orthogonal O. The quadratic form of the paper's Eq. (2) is Q = TᵀT.
-/// A triangular T costs 3 multiplications a point in the plane and 6 in space.
+/// T maps the ellipsoid to the unit ball and is upper triangular: T = O diag(1/a) Rᵀ for semi-axes
+/// a, rotation R and some orthogonal O. The quadratic form of the paper's Eq. (2) is Q = TᵀT. A
+/// triangular T costs 3 multiplications a point in the plane and 6 in space.
 template <int Dim>
 class EllipsoidN {
   static_assert(Dim == 2 || Dim == 3);
@@ -73,18 +74,23 @@ Ellipsoid embedded(const Ellipse& ellipse);
 Ellipse planar_section(const Ellipsoid& ellipsoid);
 
 /// Shadow of an ellipsoid on a plane (paper, Lemma 1): the orthogonal projection onto the plane
-/// spanned by the two orthonormal rows of `selector`, in the coordinates selector * p. Its matrix is
-/// (S Q⁻¹ Sᵀ)⁻¹; computed from the singular values of S R diag(a), which keeps thin shapes accurate.
+/// spanned by the two orthonormal rows of `selector`, in the coordinates selector * p. Its matrix
+/// is (S Q⁻¹ Sᵀ)⁻¹; computed from the singular values of S R diag(a), which keeps thin shapes
+/// accurate.
+/// @throws std::invalid_argument if the rows are not orthonormal
 Ellipse shadow(const Ellipsoid& ellipsoid, const Eigen::Matrix<double, 2, 3>& selector);
 
 /// An ellipsoid that contains every point within `radius` [m] of the given one (their Minkowski sum
 /// with a ball). The outer ellipsoid of least trace in the family Q⁻¹ (1 + 1/p) + r² (1 + p) I,
 /// p = sqrt(tr Q⁻¹ / (Dim r²)) (Kurzhanski and Valyi 1997). `outer_bound_excess` says how far it
 /// sticks out; it is poor for needles and sheets.
+/// @throws std::invalid_argument if the radius is negative or not finite
 template <int Dim>
 EllipsoidN<Dim> outer_bound(const EllipsoidN<Dim>& ellipsoid, double radius);
 
-/// Largest distance by which a semi-axis of `outer_bound` exceeds the true sum a_k + radius [m].
+/// How far `outer_bound` sticks out of the true sum [m]: the Hausdorff distance of the two. It is
+/// attained on a semi-axis, because the difference of their support functions is a convex function
+/// of the ellipsoid's own support.
 template <int Dim>
 double outer_bound_excess(const EllipsoidN<Dim>& ellipsoid, double radius);
 

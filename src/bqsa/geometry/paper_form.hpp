@@ -1,10 +1,10 @@
 /// @file
-/// The segment test exactly as the paper prints it, in the coordinate x (Eqs. 3, 19-22), kept for the
-/// complexity figures. Use segment_test.hpp for anything else:
+/// The segment test exactly as the paper prints it, in the coordinate x (Eqs. 3, 19-22), kept for
+/// the complexity figures. Use segment_test.hpp for anything else:
 ///
-/// **Defect.** For a vertical link (x_i = x_{i+1}) the quadratic degenerates to Delta = 0 and the link
-/// is called free even when it runs straight through the ellipse; near-vertical links inherit the
-/// error through rounding.
+/// **Defect.** For a vertical link (x_i = x_{i+1}) the quadratic degenerates to Delta = 0 and the
+/// link is called free even when it runs straight through the ellipse. Near a vertical link, and on
+/// one where the coefficients are rounded, the sign of Delta is noise.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,12 +27,12 @@ PaperForm<Scalar> paper_form(const Conic<Scalar>& G, const Eigen::Matrix<Scalar,
                              const Eigen::Matrix<Scalar, 2, 1>& p2) {
   const Scalar a = p1.y() - p2.y();
   const Scalar b = p2.x() - p1.x();
-  const Scalar c = p1.x() * p2.y() - p2.x() * p1.y();                        //  2
-  const Scalar Cac = G.C * a * c;                                            //  2
+  const Scalar c = p1.x() * p2.y() - p2.x() * p1.y();  //  2
+  const Scalar Cac = G.C * a * c;                      //  2
   return {
-      G.A * b * b - G.B * a * b + G.C * a * a,                               //  6
-      (Cac + Cac) - G.B * b * c + G.D * b * b - G.E * a * b,                 //  6
-      G.C * c * c - G.E * b * c + G.F * b * b,                               //  6
+      G.A * b * b - G.B * a * b + G.C * a * a,                //  6
+      (Cac + Cac) - G.B * b * c + G.D * b * b - G.E * a * b,  //  6
+      G.C * c * c - G.E * b * c + G.F * b * b,                //  6
   };
 }
 
@@ -42,13 +42,13 @@ PaperForm<Scalar> paper_form_shared(const Conic<Scalar>& G, const Eigen::Matrix<
                                     const Eigen::Matrix<Scalar, 2, 1>& p2) {
   const Scalar a = p1.y() - p2.y();
   const Scalar b = p2.x() - p1.x();
-  const Scalar c = p1.x() * p2.y() - p2.x() * p1.y();                        //  2
-  const Scalar aa = a * a, ab = a * b, bb = b * b, ac = a * c, bc = b * c;   //  5
-  const Scalar Cac = G.C * ac;                                               //  1
+  const Scalar c = p1.x() * p2.y() - p2.x() * p1.y();                       //  2
+  const Scalar aa = a * a, ab = a * b, bb = b * b, ac = a * c, bc = b * c;  //  5
+  const Scalar Cac = G.C * ac;                                              //  1
   return {
-      G.A * bb - G.B * ab + G.C * aa,                                        //  3
-      (Cac + Cac) - G.B * bc + G.D * bb - G.E * ab,                          //  3
-      G.C * (c * c) - G.E * bc + G.F * bb,                                   //  4
+      G.A * bb - G.B * ab + G.C * aa,                //  3
+      (Cac + Cac) - G.B * bc + G.D * bb - G.E * ab,  //  3
+      G.C * (c * c) - G.E * bc + G.F * bb,           //  4
   };
 }
 
@@ -59,7 +59,7 @@ Scalar discriminant(const PaperForm<Scalar>& f) {
 }
 
 /// The paper's categories (Fig. 3): Delta, and f and its derivative at x_min and x_max. Unlike
-/// `category` of segment_test.hpp it calls exact touching and every vertical link free.
+/// `category` of segment_test.hpp it calls exact touching free, and vertical links by its defect.
 template <typename Scalar>
 Category paper_category(const PaperForm<Scalar>& f, const Scalar& x1, const Scalar& x2) {
   const Scalar zero(0);

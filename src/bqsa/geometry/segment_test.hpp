@@ -1,8 +1,8 @@
 /// @file
 /// "Does this link hit that obstacle?" as the sign pattern of one quadratic (paper, section 3.1).
 ///
-/// A link is the segment P(t) = P1 + t (P2 - P1), t in [0, 1]; an obstacle is a solid ellipsoid with
-/// unit map T and centre c. With u = T (P1 - c) and v = T (P2 - P1), the level of P(t) is
+/// A link is the segment P(t) = P1 + t (P2 - P1), t in [0, 1]; an obstacle is a solid ellipsoid
+/// with unit map T and centre c. With u = T (P1 - c) and v = T (P2 - P1), the level of P(t) is
 ///
 ///     f(t) = alpha t² + beta t + gamma,   alpha = v·v,  beta = 2 u·v,  gamma = u·u - 1,
 ///
@@ -10,9 +10,10 @@
 ///
 /// * the *parameter form* works on alpha, beta, gamma, like the paper's Eqs. (19)-(22), but in t
 ///   instead of x and therefore without its vertical-link defect (see paper_form.hpp);
-/// * the *polar form* (Joachimsthal) works on S11 = f(0), S22 = f(1) and S12 = u1·u2 - 1, the product
-///   of both end-points. It is the same quadratic (Delta/4 = S12² - S11 S22), needs no division and no
-///   special case, and shares each end-point between two links: 9 multiplications a pair in the
+/// * the *polar form* (Joachimsthal) works on S11 = f(0), S22 = f(1) and S12 = u1·u2 - 1, the
+/// product
+///   of both end-points. It is the same quadratic (Delta/4 = S12² - S11 S22), needs no division and
+///   no special case, and shares each end-point between two links: 9 multiplications a pair in the
 ///   plane, 14 in space.
 ///
 /// Touching counts as a hit, everywhere. Everything here is templated on the scalar, so that an
@@ -133,8 +134,8 @@ Category category(const ParameterForm<Scalar>& f) {
 /// A link of zero length gives 0.
 template <typename Scalar>
 Scalar vertex(const PolarForm<Scalar>& f) {
-  const Scalar towards = f.s11 - f.s12;                  // -beta / 2
-  const Scalar curvature = towards + (f.s22 - f.s12);    // alpha
+  const Scalar towards = f.s11 - f.s12;                // -beta / 2
+  const Scalar curvature = towards + (f.s22 - f.s12);  // alpha
   if (!(towards > Scalar(0))) return Scalar(0);
   return towards < curvature ? towards / curvature : Scalar(1);
 }

@@ -17,17 +17,19 @@ struct DhRow {
 
 enum class DhConvention {
   kStandard,  ///< a row is Rz(theta + offset) Tz(d) Tx(a) Rx(alpha)
-  kModified,  ///< Craig: a row is Rx(alpha) Tx(a) Rz(theta + offset) Tz(d), alpha and a of the row itself
+  kModified,  ///< Craig: a row is Rx(alpha) Tx(a) Rz(theta + offset) Tz(d), alpha and a of the row
+              ///< itself
 };
 
 /// A chain of revolute joints, base to tip.
 struct ChainDescription {
   int dimension = 3;  ///< 2: the arm moves in the plane z = 0 and its task is (x, y); 3: (x, y, z)
   DhConvention convention = DhConvention::kStandard;
-  std::vector<DhRow> rows;                               ///< one a joint
-  Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();    ///< orientation of the base in W
-  Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();        ///< position of the base in W [m]
-  Eigen::Vector3d p_LT = Eigen::Vector3d::Zero();        ///< tip in the last frame L [m]; not zero: a tool
+  std::vector<DhRow> rows;                             ///< one a joint
+  Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();  ///< orientation of the base in W
+  Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();      ///< position of the base in W [m]
+  Eigen::Vector3d p_LT =
+      Eigen::Vector3d::Zero();  ///< tip in the last frame L [m]; not zero: a tool
 };
 
 /// A planar arm: joint angles relative to the previous link, link i along its own x axis [m].

@@ -1,5 +1,7 @@
 #include "bqsa/kinematics/serial_chain.hpp"
 
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -8,6 +10,9 @@
 
 namespace bqsa {
 namespace {
+
+/// Largest departure from orthonormality that passes for rounding.
+constexpr double kRotationTolerance = 1e-9;
 
 void validate(const ChainDescription& chain) {
   if (chain.rows.empty() || chain.rows.size() > kMaxJoints) {
@@ -23,6 +28,10 @@ void validate(const ChainDescription& chain) {
              std::isfinite(row.offset);
   }
   if (!finite) throw std::invalid_argument("serial chain: all parameters must be finite");
+  if (!chain.R_WB.isUnitary(kRotationTolerance) || !(chain.R_WB.determinant() > 0)) {
+    throw std::invalid_argument(
+        "serial chain: the base orientation must be orthonormal and right-handed");
+  }
 }
 
 }  // namespace
@@ -34,8 +43,8 @@ SerialChain::SerialChain(ChainDescription description) : description_(std::move(
   joints_ = static_cast<int>(description_.rows.size());
   points_ = joints_ + 1 + (tool ? 1 : 0);
 
-  // Link i ends in the origin of frame i. By the modified convention that origin lies on the axis of
-  // joint i, so joint i does not move it.
+  // Link i ends in the origin of frame i. By the modified convention that origin lies on the axis
+  // of joint i, so joint i does not move it.
   moving_joints_.assign(static_cast<std::size_t>(points_), joints_);
   Eigen::VectorXd length(points_ - 1);
   cos_sin_alpha_.resize(joints_, 2);
@@ -51,13 +60,13 @@ SerialChain::SerialChain(ChainDescription description) : description_(std::move(
     if (length(k) > 0) links_.push_back({k + 1, k, k + 1});
   }
 
-  // The axis of joint j passes through the origin of frame j - 1 (standard) or j (modified), so the
-  // lengths between there and point k bound the distance.
+  // Point j + 1 lies on the axis of joint j (modified) or |a| away from it (standard); the lengths
+  // from there to point k bound the rest.
   reach_ = Eigen::MatrixXd::Zero(joints_, points_);
   for (int j = 0; j < joints_; ++j) {
-    const int pivot = modified ? j + 1 : j;
-    for (int k = pivot; k < points_; ++k) {
-      if (j < moving_joints(k)) reach_(j, k) = length.segment(pivot, k - pivot).sum();
+    const double a = modified ? 0 : std::abs(description_.rows[static_cast<std::size_t>(j)].a);
+    for (int k = j + 1; k < points_; ++k) {
+      if (j < moving_joints(k)) reach_(j, k) = a + length.segment(j + 1, k - j - 1).sum();
     }
   }
 }

@@ -11,7 +11,7 @@
 namespace bqsa {
 
 inline constexpr int kMaxJoints = 16;
-inline constexpr int kMaxLinks = kMaxJoints + 1;   ///< a tool is one more link
+inline constexpr int kMaxLinks = kMaxJoints + 1;  ///< a tool is one more link
 inline constexpr int kMaxPoints = kMaxLinks + 1;
 inline constexpr int kMaxTaskRows = 6;
 
@@ -35,7 +35,8 @@ struct ChainPose {
   template <int MaxColumns>
   using Columns = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, MaxColumns>;
 
-  Columns<kMaxPoints> p_WO;     ///< column k is the paper's O_{k+1}: the base, each frame's origin, the tip [m]
+  Columns<kMaxPoints>
+      p_WO;  ///< column k is the paper's O_{k+1}: the base, each frame's origin, the tip [m]
   Columns<kMaxJoints> axis_W;   ///< column j is the unit axis of joint j
   Columns<kMaxJoints> pivot_W;  ///< column j is a point on the axis of joint j [m]
 
@@ -45,7 +46,8 @@ struct ChainPose {
 /// A chain of up to 16 revolute joints. Immutable.
 class SerialChain {
  public:
-  /// @throws std::invalid_argument if there are no joints, more than 16, or a number is not finite
+  /// @throws std::invalid_argument if there are no joints, more than 16, the dimension is neither 2
+  ///         nor 3, a number is not finite, or the base orientation is no rotation
   explicit SerialChain(ChainDescription description);
 
   const ChainDescription& description() const { return description_; }
@@ -57,7 +59,7 @@ class SerialChain {
   /// All end-points and joint axes for q [rad].
   void forward(const JointVector& q, ChainPose& pose) const;
 
-  /// Joints 0 .. moving_joints(k) - 1 are those that can move point k.
+  /// Only joints 0 .. moving_joints(k) - 1 can move point k.
   int moving_joints(int point) const { return moving_joints_[static_cast<std::size_t>(point)]; }
 
   /// Translational Jacobian of point k: dimension() x joints() [m/rad].

@@ -1,0 +1,61 @@
+/// @file
+/// A double that counts the multiplications and divisions done with it.
+///
+/// The counting rule: every `*` and `*=` of two scalars is one multiplication, products with a
+/// constant included; sums, differences, negations and comparisons are free. Code that wants a
+/// product with 2 for free writes it as a sum.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+namespace bqsa::test_support {
+
+class CountingScalar {
+ public:
+  CountingScalar() = default;
+  CountingScalar(double value) : value_(value) {}  // implicit, as Eigen expects of a scalar
+
+  double value() const { return value_; }
+
+  CountingScalar& operator+=(const CountingScalar& b) { return *this = *this + b; }
+  CountingScalar& operator-=(const CountingScalar& b) { return *this = *this - b; }
+  CountingScalar& operator*=(const CountingScalar& b) { return *this = *this * b; }
+
+  friend CountingScalar operator+(const CountingScalar& a, const CountingScalar& b) {
+    return a.value_ + b.value_;
+  }
+  friend CountingScalar operator-(const CountingScalar& a, const CountingScalar& b) {
+    return a.value_ - b.value_;
+  }
+  friend CountingScalar operator-(const CountingScalar& a) { return -a.value_; }
+  friend CountingScalar operator*(const CountingScalar& a, const CountingScalar& b) {
+    ++multiplications_;
+    return a.value_ * b.value_;
+  }
+  friend CountingScalar operator/(const CountingScalar& a, const CountingScalar& b) {
+    ++divisions_;
+    return a.value_ / b.value_;
+  }
+  friend auto operator<=>(const CountingScalar&, const CountingScalar&) = default;
+
+  static std::uint64_t multiplications() { return multiplications_; }
+  static std::uint64_t divisions() { return divisions_; }
+  static void reset() { multiplications_ = divisions_ = 0; }
+
+ private:
+  double value_ = 0;
+  inline static std::uint64_t multiplications_ = 0;
+  inline static std::uint64_t divisions_ = 0;
+};
+
+}  // namespace bqsa::test_support
+
+template <>
+struct Eigen::NumTraits<bqsa::test_support::CountingScalar> : Eigen::NumTraits<double> {
+  using Real = bqsa::test_support::CountingScalar;
+  using NonInteger = bqsa::test_support::CountingScalar;
+  using Nested = bqsa::test_support::CountingScalar;
+  using Literal = double;
+  enum { RequireInitialization = 1 };
+};
