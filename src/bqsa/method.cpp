@@ -1,32 +1,61 @@
 #include "bqsa/method.hpp"
 
+#include <cmath>
+
 namespace bqsa {
 
 std::string why_not_applicable(const Capabilities& capabilities, const Problem& problem) {
   if (problem.dimension() == 2 && !capabilities.planar) return "planar problems not supported yet";
-  if (problem.dimension() == 3 && !capabilities.spatial) return "spatial problems not supported yet";
+  if (problem.dimension() == 3 && !capabilities.spatial)
+    return "spatial problems not supported yet";
   if (problem.link_radius > 0 && !capabilities.link_radius) return "link_radius not supported yet";
   if (problem.margin > 0 && !capabilities.margin) return "margin not supported yet";
   return {};
 }
 
+void hold(const JointVector& q_last, Infeasible reason, int link, int obstacle,
+          StepOutput& output) {
+  output.q = q_last;
+  output.state = TickState::kInfeasible;
+  output.reason = reason;
+  output.link = link;
+  output.obstacle = obstacle;
+}
+
+Infeasible forbidden_step(const Problem& problem, const JointVector& q_last, const JointVector& q) {
+  if (!problem.within_limits(q)) return Infeasible::kJointLimit;
+  for (int j = 0; j < problem.chain.joints(); ++j) {
+    if (!(std::abs(q(j) - q_last(j)) <= problem.max_step(j))) return Infeasible::kStepTooLarge;
+  }
+  return Infeasible::kNot;
+}
+
 const char* name_of(TickState state) {
   switch (state) {
-    case TickState::kFree: return "free";
-    case TickState::kClamped: return "clamped";
-    case TickState::kInfeasible: return "infeasible";
+    case TickState::kFree:
+      return "free";
+    case TickState::kClamped:
+      return "clamped";
+    case TickState::kInfeasible:
+      return "infeasible";
   }
   return "?";
 }
 
 const char* name_of(Infeasible reason) {
   switch (reason) {
-    case Infeasible::kNot: return "feasible";
-    case Infeasible::kNoFreeConfiguration: return "no free configuration";
-    case Infeasible::kNoFreeMotion: return "no free motion";
-    case Infeasible::kStepTooLarge: return "joint step too large";
-    case Infeasible::kJointLimit: return "joint limit";
-    case Infeasible::kDiverged: return "diverged";
+    case Infeasible::kNot:
+      return "feasible";
+    case Infeasible::kNoFreeConfiguration:
+      return "no free configuration";
+    case Infeasible::kNoFreeMotion:
+      return "no free motion";
+    case Infeasible::kStepTooLarge:
+      return "joint step too large";
+    case Infeasible::kJointLimit:
+      return "joint limit";
+    case Infeasible::kDiverged:
+      return "diverged";
   }
   return "?";
 }

@@ -11,6 +11,7 @@
 
 #include "bqsa/parameters.hpp"
 #include "bqsa/problem.hpp"
+#include "bqsa/work_counters.hpp"
 
 namespace bqsa {
 
@@ -25,17 +26,6 @@ struct Capabilities {
 
 /// Why a method does not apply to a problem; empty if it does.
 std::string why_not_applicable(const Capabilities& capabilities, const Problem& problem);
-
-/// Work done since `prepare`, in exact counts. Claims of complexity are compared with these.
-struct WorkCounters {
-  std::uint64_t quadratics = 0;        ///< segment-ellipsoid quadratics evaluated (all purposes)
-  std::uint64_t point_pairs = 0;       ///< test-point pairs compared
-  std::uint64_t distance_queries = 0;  ///< exact or library distance queries
-  std::uint64_t kinematics = 0;        ///< forward kinematics of the whole chain
-  std::uint64_t jacobians = 0;         ///< Jacobians of one point
-  std::uint64_t linear_solves = 0;     ///< decompositions of a task matrix
-  std::uint64_t iterations = 0;        ///< steps of the method's inner searches
-};
 
 /// How a control tick ended.
 enum class TickState {
@@ -56,32 +46,39 @@ enum class Infeasible {
 
 /// One link moved out of one obstacle.
 struct Clamp {
-  int link = 0;        ///< the paper's i
-  int obstacle = 0;    ///< index into Problem::obstacles
-  int anchor = 0;      ///< a: links 1 .. a moved; for spatial methods the number of joints
-  double offset = 0;   ///< how far: turn of the link (planar) or largest joint change (spatial) [rad]
+  int link = 0;      ///< the paper's i
+  int obstacle = 0;  ///< index into Problem::obstacles
+  int anchor = 0;    ///< a: links 1 .. a moved; for spatial methods the number of joints
+  double offset =
+      0;  ///< how far: turn of the link (planar) or largest joint change (spatial) [rad]
   int increments = 0;  ///< clamping increments tried
 };
 
 struct StepInput {
-  int tick = 0;                ///< 1 .. ticks
-  double t = 0;                ///< time at the end of the step [s]
+  int tick = 0;                                            ///< 1 .. ticks
+  double t = 0;                                            ///< time at the end of the step [s]
   Eigen::Vector3d p_WT_desired = Eigen::Vector3d::Zero();  ///< x_d(t) [m]
-  JointVector q;               ///< joint angles at the start of the step [rad]
+  JointVector q;  ///< joint angles at the start of the step [rad]
 };
 
 struct StepOutput {
   static constexpr int kMaxClamps = 32;
 
-  JointVector q;                       ///< joint angles to be reached at time t [rad]
+  JointVector q;  ///< joint angles to be reached at time t [rad]
   TickState state = TickState::kFree;
   Infeasible reason = Infeasible::kNot;
-  int link = 0;                        ///< infeasible: the link that could not be freed, else 0
-  int obstacle = -1;                   ///< infeasible: index of its obstacle, else -1
-  int clamp_count = 0;                 ///< valid entries of `clamps`
+  int link = 0;         ///< infeasible: the link that could not be freed, else 0
+  int obstacle = -1;    ///< infeasible: index of its obstacle, else -1
+  int clamp_count = 0;  ///< valid entries of `clamps`
   std::array<Clamp, kMaxClamps> clamps{};
-  bool guard_fired = false;            ///< the paper variant fell back to the exact configuration
+  bool guard_fired = false;  ///< the paper variant fell back to the exact configuration
 };
+
+/// Ends a tick without a motion: the arm holds `q_last`, its last safe configuration.
+void hold(const JointVector& q_last, Infeasible reason, int link, int obstacle, StepOutput& output);
+
+/// Why the step of one tick from q_last to q may not be made: kJointLimit, kStepTooLarge or kNot.
+Infeasible forbidden_step(const Problem& problem, const JointVector& q_last, const JointVector& q);
 
 /// Joint angles at the ticks; row 0 is the start.
 struct Trajectory {

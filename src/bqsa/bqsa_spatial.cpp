@@ -1,0 +1,162 @@
+#include "bqsa/bqsa_spatial.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "bqsa/tip_closure.hpp"
+
+namespace bqsa {
+namespace {
+
+/// Backward searches of one tick: freeing a link can push one that was freed before back in.
+constexpr int kMaxSweeps = 4;
+
+/// Share of the clamping direction that must survive the projection on the self-motions.
+constexpr double kVanishing = 1e-6;
+
+}  // namespace
+
+void BqsaSpatial::prepare(const Problem& problem) {
+  if (problem.dimension() != 3) throw std::invalid_argument("spatial BQSA needs a spatial arm");
+  problem_ = &problem;
+  counters_ = {};
+  obstacles_.assign(problem.obstacles, counters_);
+  certificate_.assign(problem, problem.link_radius + problem.margin, counters_);
+}
+
+void BqsaSpatial::step(const StepInput& input, StepOutput& output) {
+  output = {};
+
+  // 1, 2: predictor
+  if (!move(input, input.q, JointVector::Zero(problem_->chain.joints()))) {
+    return hold(input.q, Infeasible::kDiverged, 0, -1, output);
+  }
+  const JointVector q_predicted = q_;
+  const Infeasible forbidden = forbidden_step(*problem_, input.q, q_predicted);
+  if (forbidden != Infeasible::kNot) return hold(input.q, forbidden, 0, -1, output);
+
+  double distance = settings_.safety_offset;
+  MotionCertificate::Result motion;
+  for (int attempt = 0; attempt <= settings_.retries; ++attempt, distance *= 2) {
+    obstacles_.grow(problem_->link_radius + problem_->margin + distance);
+    output.clamp_count = 0;
+    q_ = q_predicted;
+    problem_->chain.forward(q_, pose_);
+    ++counters_.kinematics;
+    const Infeasible reason = search_backward(input, output);  // 3, 4, 5
+    if (reason != Infeasible::kNot) {
+      if (!motion.certified) break;
+      return hold(input.q, reason, output.link, output.obstacle, output);
+    }
+    motion = certificate_.certify(input.q, q_);  // 6
+    if (motion.certified) {
+      output.q = q_;
+      output.state = output.clamp_count > 0 ? TickState::kClamped : TickState::kFree;
+      return;
+    }
+  }
+  hold(input.q, Infeasible::kNoFreeMotion, motion.link, motion.obstacle, output);
+}
+
+/// From the tip to the base, until a whole sweep finds every link free.
+Infeasible BqsaSpatial::search_backward(const StepInput& input, StepOutput& output) {
+  const std::span<const Link> links = problem_->chain.links();
+  for (int sweep = 0; sweep < kMaxSweeps; ++sweep) {
+    bool all_free = true;
+    for (std::size_t k = links.size(); k-- > 0;) {
+      const int obstacle = obstacles_.first_hit(pose_, links[k]);
+      if (obstacle < 0) continue;
+      all_free = false;
+      output.link = links[k].number;
+      output.obstacle = obstacle;
+      Clamp clamp{links[k].number, obstacle, problem_->chain.joints()};
+      const Infeasible reason = free_link(input, links[k], clamp);
+      if (reason != Infeasible::kNot) return reason;
+      if (output.clamp_count < StepOutput::kMaxClamps) {
+        output.clamps[static_cast<std::size_t>(output.clamp_count++)] = clamp;
+      }
+    }
+    if (all_free) {
+      output.link = 0;
+      output.obstacle = -1;
+      return Infeasible::kNot;
+    }
+  }
+  return Infeasible::kNoFreeConfiguration;
+}
+
+/// Joints clamping: moves the arm along its self-motions until the link is free of all obstacles.
+Infeasible BqsaSpatial::free_link(const StepInput& input, const Link& link, Clamp& clamp) {
+  const JointVector q_start = q_;
+  JointVector phi;
+  int obstacle = clamp.obstacle;
+  while (obstacle >= 0) {
+    if (!clamping_velocity(link, obstacle, phi)) return Infeasible::kNoFreeConfiguration;
+    const JointVector colliding = q_;
+    const JointVector change = settings_.increment / phi.cwiseAbs().maxCoeff() * phi;
+    if (!move(input, colliding, change)) return Infeasible::kDiverged;
+    ++counters_.iterations;
+    ++clamp.increments;
+    clamp.offset = (q_ - q_start).cwiseAbs().maxCoeff();
+    if (clamp.offset > settings_.search_range) return Infeasible::kNoFreeConfiguration;
+    const Infeasible forbidden = forbidden_step(*problem_, input.q, q_);
+    if (forbidden != Infeasible::kNot) return forbidden;
+    obstacle = obstacles_.first_hit(pose_, link);
+    if (obstacle < 0) settle(input, link, colliding, change);
+  }
+  return Infeasible::kNot;
+}
+
+/// phi = N J(t*)ᵀ g. False if hardly anything of J(t*)ᵀ g is a self-motion.
+bool BqsaSpatial::clamping_velocity(const Link& link, int obstacle, JointVector& phi) {
+  const SerialChain& chain = problem_->chain;
+  const Ellipsoid& shape = obstacles_[obstacle];
+  const Eigen::Vector3d u1 = unit_point<3>(shape, pose_.p_WO.col(link.start));
+  const Eigen::Vector3d u2 = unit_point<3>(shape, pose_.p_WO.col(link.end));
+  const double t = vertex(polar_form<double, 3>(u1, u2));
+  const Eigen::Vector3d g =
+      (shape.unit_map().transpose() * (u1 + t * (u2 - u1))).stableNormalized();
+  ++counters_.quadratics;
+
+  chain.jacobian(pose_, link.start, J_start_);
+  chain.jacobian(pose_, link.end, J_end_);
+  chain.jacobian(pose_, chain.points() - 1, J_tip_);
+  counters_.jacobians += 3;
+  const JointVector outward = (1 - t) * (J_start_.transpose() * g) + t * (J_end_.transpose() * g);
+  solve_hybrid_ik(J_tip_, TaskVector::Zero(3), JointVector::Ones(chain.joints()), outward,
+                  settings_.ik, ik_);
+  ++counters_.linear_solves;
+  phi = ik_.q_dot;
+  return phi.norm() > kVanishing * outward.norm();
+}
+
+/// q_ = from + change, then corrected until the tip is on its path. False if it stays off it.
+bool BqsaSpatial::move(const StepInput& input, const JointVector& from, const JointVector& change) {
+  q_ = from + change;
+  problem_->chain.forward(q_, pose_);
+  ++counters_.kinematics;
+  return close_tip(problem_->chain, input.p_WT_desired, problem_->dt, settings_, q_, pose_,
+                   counters_) <= problem_->tolerance;
+}
+
+/// Takes back as much of the last increment as leaves the link free.
+void BqsaSpatial::settle(const StepInput& input, const Link& link, const JointVector& colliding,
+                         const JointVector& change) {
+  JointVector q_free = q_;
+  double hit = 0;
+  double free = 1;
+  for (int halving = 0; halving < settings_.settling; ++halving) {
+    const double middle = 0.5 * (hit + free);
+    if (move(input, colliding, middle * change) && obstacles_.first_hit(pose_, link) < 0) {
+      q_free = q_;
+      free = middle;
+    } else {
+      hit = middle;
+    }
+  }
+  q_ = q_free;
+  problem_->chain.forward(q_, pose_);
+  ++counters_.kinematics;
+}
+
+}  // namespace bqsa

@@ -1,0 +1,71 @@
+/// @file
+/// Proof that a joint-space motion is free between its ends, from the quadratic alone.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "bqsa/problem.hpp"
+#include "bqsa/work_counters.hpp"
+
+namespace bqsa {
+
+/// Certifies motions q(s) = q0 + s (q1 - q0), s in [0, 1], of one problem's arm and obstacles.
+///
+/// Over a part of the motion of length h, an end-point of a link stays within
+///
+///     sag = A h² / 8
+///
+/// of the chord between its two positions at the ends of that part, A a bound on its acceleration
+/// d²P/ds². So the link sweeps no more than the convex hull of its four corners, fattened by sag.
+/// With u the vertex of the link's mean position in unit coordinates (segment_test.hpp), the plane
+/// through the ellipsoid's supporting point with normal Tᵀu separates that hull from the ellipsoid,
+/// with `clearance` to spare, if for all four corners u_c
+///
+///     u·u_c - |u| > (sag + clearance) |Tᵀu|.
+///
+/// Where it does not, the part is halved. The proof needs no distance query; what it certifies is
+/// free.
+class MotionCertificate {
+ public:
+  /// @param clearance  distance that the links' axes must keep from every obstacle: link radius and
+  ///                   margin [m]
+  /// Problem and counters must outlive the certificate. May allocate.
+  void assign(const Problem& problem, double clearance, WorkCounters& counters);
+
+  struct Result {
+    bool certified = true;
+    int link = 0;       ///< number of the first link that could not be certified, else 0
+    int obstacle = -1;  ///< its obstacle, else -1
+  };
+
+  /// Does not allocate.
+  Result certify(const JointVector& q0, const JointVector& q1);
+
+ private:
+  /// Parts shorter than 2^-kMaxHalvings of the motion are not halved again.
+  static constexpr int kMaxHalvings = 12;
+
+  struct Pair {
+    int link;  ///< index into SerialChain::links
+    int obstacle;
+  };
+  struct Part {
+    double s0, s1;
+    const ChainPose& pose0;
+    const ChainPose& pose1;
+  };
+
+  Result certify(const Part& part, std::size_t first_pair, int halvings);
+  bool separated(const Part& part, const Pair& pair) const;
+
+  const Problem* problem_ = nullptr;
+  double clearance_ = 0;
+  std::vector<Pair> pairs_;  ///< a stack: the pairs still open on each level of halving
+  JointVector q0_, dq_;
+  std::array<double, kMaxPoints> acceleration_{};  ///< A of every end-point [m]
+  WorkCounters* counters_ = nullptr;
+};
+
+}  // namespace bqsa

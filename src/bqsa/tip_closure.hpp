@@ -1,0 +1,24 @@
+/// @file
+/// Putting the tip back onto its path after a first-order step.
+#pragma once
+
+#include "bqsa/bqsa_settings.hpp"
+#include "bqsa/kinematics/serial_chain.hpp"
+#include "bqsa/work_counters.hpp"
+
+namespace bqsa {
+
+/// Newton corrections by the hybrid IK with W = I, phi = 0: the least-norm steps that bring the tip
+/// of q to p_WT. At most settings.corrections of them, until the error is below
+/// settings.tip_tolerance.
+///
+/// @param dt    control period, the time in which one correction is made [s]
+/// @param q     joint angles, changed in place [rad]
+/// @param pose  of q before and after the call
+/// @return the remaining tip error [m]
+/// Does not allocate.
+double close_tip(const SerialChain& chain, const Eigen::Vector3d& p_WT, double dt,
+                 const BqsaSettings& settings, JointVector& q, ChainPose& pose,
+                 WorkCounters& counters);
+
+}  // namespace bqsa
