@@ -9,7 +9,9 @@
 
 namespace bqsa::harness {
 
-/// Writes all digits, so that reading gives the same numbers; the file appears complete or not at all.
+/// Writes all digits, so that reading gives the same numbers; the file appears complete or not at
+/// all. A trajectory without rows gives the header `t` alone; rows of uneven width are written as they
+/// are, and reading refuses both.
 /// @throws InputError if the file cannot be written
 void write_trajectory(const std::filesystem::path& file, const Trajectory& trajectory);
 

@@ -1,0 +1,36 @@
+/// @file
+/// Tables of numbers as CSV text.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "harness/input_error.hpp"
+
+namespace bqsa::harness {
+
+/// A table as read; row r stands in line r + 2 of its file.
+struct NumericTable {
+  std::size_t columns = 0;
+  std::vector<double> values;  ///< row by row
+
+  std::size_t rows() const { return columns == 0 ? 0 : values.size() / columns; }
+  double operator()(std::size_t row, std::size_t column) const {
+    return values[row * columns + column];
+  }
+  static std::size_t line(std::size_t row) { return row + 2; }
+};
+
+/// Reads a file of exactly the given header line (names and commas, no blanks) and rows of as many
+/// numbers. `nan` and `inf` are numbers here. Lines end in LF or CRLF, the last one too: a file cut
+/// short is refused.
+/// @throws InputError naming file, line, column, what was expected and what was found
+NumericTable read_numeric_csv(const std::filesystem::path& file, const std::string& header,
+                              std::size_t max_bytes);
+
+/// Appends the shortest text that reads back as the same number.
+void append_number(std::string& text, double number);
+
+}  // namespace bqsa::harness

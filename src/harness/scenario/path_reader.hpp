@@ -1,0 +1,27 @@
+/// @file
+/// The keys of `task`.
+#pragma once
+
+#include <filesystem>
+
+#include "harness/scenario/path.hpp"
+#include "harness/scenario/units.hpp"
+#include "harness/scenario/yaml_value.hpp"
+
+namespace bqsa::harness {
+
+/// What the tip has to do.
+struct Task {
+  Path path;
+  Profile profile = Profile::kLinear;
+  double duration = 0;  ///< [s]
+  int ticks = 0;
+};
+
+/// Reads `task: {path, timing}`.
+/// @param dimension  of the robot's task: 2 or 3
+/// @param directory  of the scenario file; a waypoint file is found from there and lies in it
+Task read_task(const YamlValue& value, const Units& units, int dimension,
+               const std::filesystem::path& directory);
+
+}  // namespace bqsa::harness

@@ -1,0 +1,23 @@
+/// @file
+/// Can the problem be started and followed at all? What no method could repair is refused at the
+/// door.
+#pragma once
+
+#include "bqsa/problem.hpp"
+#include "harness/scenario/path_reader.hpp"
+#include "harness/scenario/units.hpp"
+#include "harness/scenario/yaml_value.hpp"
+
+namespace bqsa::harness {
+
+/// Refuses a start beyond the joint limits or with a link in an obstacle. Within 1e-6 m of contact
+/// is touching, and free, as the judge has it.
+void check_start(const YamlValue& value, const Problem& problem, const Units& units);
+
+/// Refuses a path that begins farther than `start_tolerance` [m] from the tip at the start, leaves
+/// the space that the arm's lengths let it reach (joint limits not considered), or enters an
+/// obstacle, the tip taken as a ball of the link radius.
+void check_path(const YamlValue& value, const Problem& problem, const Task& task,
+                double start_tolerance, const Units& units);
+
+}  // namespace bqsa::harness

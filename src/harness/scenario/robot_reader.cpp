@@ -1,0 +1,143 @@
+#include "harness/scenario/robot_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace bqsa::harness {
+namespace {
+
+void expect_joint_count(const YamlValue& value, std::size_t count) {
+  if (count < 1 || count > kMaxJoints) {
+    value.fail(fmt::format("1 to {} joints", kMaxJoints), std::to_string(count));
+  }
+}
+
+ChainDescription read_planar_chain(const YamlValue& value, const Units& units) {
+  value.expect_keys({"kind", "base", "links", "limits", "link_radius"});
+  const YamlValue links = value.get("links", "a list of link lengths");
+  const std::vector<YamlValue> elements = links.list("a list of link lengths");
+  expect_joint_count(links, elements.size());
+  std::vector<double> lengths;
+  for (const YamlValue& element : elements) lengths.push_back(units.positive_length(element));
+  Eigen::Vector3d base = Eigen::Vector3d::Zero();
+  if (const auto given = value.find("base")) base = units.point(*given, 2);
+  return planar_chain(lengths, base.head<2>());
+}
+
+DhRow read_row(const YamlValue& value, const Units& units) {
+  value.expect_keys({"a", "alpha", "d", "offset", "lower", "upper", "max_velocity"});
+  const std::optional<YamlValue> offset = value.find("offset");
+  return {.a = units.length(value.get("a", "a length")),
+          .alpha = units.angle(value.get("alpha", "an angle")),
+          .d = units.length(value.get("d", "a length")),
+          .offset = offset ? units.angle(*offset) : 0.0};
+}
+
+ChainDescription read_dh_chain(const YamlValue& value, const Units& units,
+                               DhConvention convention) {
+  value.expect_keys({"kind", "base", "rpy", "joints", "tool", "limits", "link_radius"});
+  ChainDescription chain;
+  chain.convention = convention;
+  const YamlValue joints = value.get("joints", "a list of joints");
+  const std::vector<YamlValue> rows = joints.list("a list of joints");
+  expect_joint_count(joints, rows.size());
+  for (const YamlValue& row : rows) chain.rows.push_back(read_row(row, units));
+  if (const auto base = value.find("base")) chain.p_WB = units.point(*base, 3);
+  if (const auto rpy = value.find("rpy")) chain.R_WB = read_rpy(*rpy, units);
+  if (const auto tool = value.find("tool")) chain.p_LT = units.point(*tool, 3);
+  return chain;
+}
+
+using ReadOne = double (Units::*)(const YamlValue&) const;
+
+/// One of the lists of `robot.limits`, one number a joint; empty if absent.
+JointVector read_limit_list(const YamlValue& limits, const std::string& key, const Units& units,
+                            ReadOne read_one, int joints) {
+  const std::optional<YamlValue> list = limits.find(key);
+  if (!list) return {};
+  JointVector numbers(joints);
+  int j = 0;
+  const std::string expected = fmt::format("a list of {} numbers, one a joint", joints);
+  for (const YamlValue& element : list->list(expected, static_cast<std::size_t>(joints))) {
+    numbers(j++) = (units.*read_one)(element);
+  }
+  return numbers;
+}
+
+/// One of the limits in the rows of `robot.joints`; empty if no row has it, else `absent` where it
+/// is not given.
+JointVector read_row_limit(const std::vector<YamlValue>& rows, const std::string& key,
+                           const Units& units, ReadOne read_one, double absent) {
+  const auto has_key = [&key](const YamlValue& row) { return row.has(key); };
+  if (std::none_of(rows.begin(), rows.end(), has_key)) return {};
+  JointVector numbers(static_cast<Eigen::Index>(rows.size()));
+  Eigen::Index j = 0;
+  for (const YamlValue& row : rows) {
+    const std::optional<YamlValue> number = row.find(key);
+    numbers(j++) = number ? (units.*read_one)(*number) : absent;
+  }
+  return numbers;
+}
+
+/// A joint row may leave out a limit that others have, but not `max_velocity`: without one a joint
+/// has the default largest step, which is no velocity.
+void expect_all_velocities(const std::vector<YamlValue>& rows) {
+  for (const YamlValue& row : rows) row.get("max_velocity", "a velocity, as other joints have one");
+}
+
+JointLimits read_limits(const YamlValue& robot, const Units& units, int joints) {
+  constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+  JointLimits limits;
+  if (const std::optional<YamlValue> list = robot.find("joints")) {
+    const std::vector<YamlValue> rows = list->list("a list of joints");
+    limits.lower = read_row_limit(rows, "lower", units, &Units::angle, -kUnlimited);
+    limits.upper = read_row_limit(rows, "upper", units, &Units::angle, kUnlimited);
+    limits.max_velocity =
+        read_row_limit(rows, "max_velocity", units, &Units::positive_velocity, kUnlimited);
+    if (limits.max_velocity.size() > 0) expect_all_velocities(rows);
+  }
+  if (const std::optional<YamlValue> lists = robot.find("limits")) {
+    if (limits.lower.size() + limits.upper.size() + limits.max_velocity.size() > 0) {
+      lists->fail("limits either here or in the joints", "both");
+    }
+    lists->expect_keys({"lower", "upper", "max_velocity"});
+    limits.lower = read_limit_list(*lists, "lower", units, &Units::angle, joints);
+    limits.upper = read_limit_list(*lists, "upper", units, &Units::angle, joints);
+    limits.max_velocity =
+        read_limit_list(*lists, "max_velocity", units, &Units::positive_velocity, joints);
+  }
+  for (int j = 0; limits.lower.size() > 0 && limits.upper.size() > 0 && j < joints; ++j) {
+    if (limits.lower(j) <= limits.upper(j)) continue;
+    robot.fail("lower limits not above the upper ones",
+               fmt::format("{:g} above {:g} for joint {}", limits.lower(j) / units.rad_per_angle,
+                           limits.upper(j) / units.rad_per_angle, j + 1));
+  }
+  return limits;
+}
+
+ChainDescription read_chain(const YamlValue& value, const Units& units) {
+  const std::string kind =
+      value.get("kind", "planar, dh or mdh").choice({"planar", "dh", "mdh"}, {"urdf"});
+  if (kind == "planar") return read_planar_chain(value, units);
+  return read_dh_chain(value, units,
+                       kind == "dh" ? DhConvention::kStandard : DhConvention::kModified);
+}
+
+}  // namespace
+
+Robot read_robot(const YamlValue& value, const Units& units) {
+  SerialChain chain(read_chain(value, units));
+  if (chain.links().empty()) value.fail("at least one link of positive length", "none");
+  JointLimits limits = read_limits(value, units, chain.joints());
+  const std::optional<YamlValue> radius = value.find("link_radius");
+  return {std::move(chain), std::move(limits), radius ? units.non_negative_length(*radius) : 0.0};
+}
+
+}  // namespace bqsa::harness

@@ -1,0 +1,70 @@
+#include "harness/text_file.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+
+namespace bqsa::harness {
+namespace fs = std::filesystem;
+
+std::string read_text_file(const fs::path& file, std::size_t max_bytes) {
+  const auto fail = [&file](const std::string& expected, const std::string& got) {
+    throw InputError(fmt::format("{}: expected {}, got {}", file.string(), expected, got));
+  };
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (status.type() == fs::file_type::not_found) fail("a file", "nothing there");
+  if (status.type() == fs::file_type::directory) fail("a file", "a directory");
+  if (status.type() == fs::file_type::none) fail("a readable file", error.message());
+  if (status.type() != fs::file_type::regular) fail("a file", "something else (device or pipe)");
+
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) fail("a readable file", "one that cannot be opened");
+  const std::uintmax_t size = fs::file_size(file, error);
+  if (!error && size > max_bytes) {
+    fail(fmt::format("a file of at most {} bytes", max_bytes), fmt::format("{} bytes", size));
+  }
+  std::string content(error ? 0 : static_cast<std::size_t>(size), '\0');
+  stream.read(content.data(), static_cast<std::streamsize>(content.size()));
+  if (error || static_cast<std::size_t>(stream.gcount()) != content.size()) {
+    fail("a readable file", "one that cannot be read");
+  }
+  return content;
+}
+
+void write_text_file(const fs::path& file, std::string_view content) {
+  fs::path temporary = file;
+  temporary += fmt::format(".{}.tmp", getpid());
+  std::error_code error;
+  {
+    errno = 0;
+    std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
+    stream.write(content.data(), static_cast<std::streamsize>(content.size()));
+    stream.close();
+    if (!stream) error = {errno != 0 ? errno : EIO, std::generic_category()};
+  }
+  if (!error) fs::rename(temporary, file, error);
+  if (error) {
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+    throw InputError(
+        fmt::format("{}: expected a file that can be written, got one that cannot ({})",
+                    file.string(), error.message()));
+  }
+}
+
+std::string excerpt(std::string_view text) {
+  constexpr std::size_t kLongest = 60;
+  std::string shown;
+  for (const char c : text.substr(0, kLongest)) {
+    const bool printable = c >= 0x20 && c < 0x7f;
+    shown +=
+        printable ? std::string(1, c) : fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+  }
+  return text.size() > kLongest ? shown + "..." : shown;
+}
+
+}  // namespace bqsa::harness

@@ -1,0 +1,28 @@
+/// @file
+/// Whole files in and out, with errors that a user can act on.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "harness/input_error.hpp"
+
+namespace bqsa::harness {
+
+/// The bytes of a regular file.
+/// @throws InputError naming the file if it is missing, not a regular file, unreadable or larger
+///   than `max_bytes`
+std::string read_text_file(const std::filesystem::path& file, std::size_t max_bytes);
+
+/// Writes to a temporary file in the same directory and renames it, so that the file appears
+/// complete or not at all; an existing file is replaced.
+/// @throws InputError naming the file if it cannot be written
+void write_text_file(const std::filesystem::path& file, std::string_view content);
+
+/// What a message shows of text found in a file: at most 60 bytes, anything but printable ASCII
+/// as `\x07`.
+std::string excerpt(std::string_view text);
+
+}  // namespace bqsa::harness
