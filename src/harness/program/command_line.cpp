@@ -1,0 +1,137 @@
+#include "harness/program/command_line.hpp"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <functional>
+#include <ostream>
+#include <string_view>
+
+#include "harness/results/provenance.hpp"
+
+namespace bqsa::harness {
+namespace {
+
+constexpr const char* kFooter =
+    "Exit status: 0 done, 1 a run failed (with --strict), 2 bad input or results not written.";
+
+/// A word of the command line as a shell would need it.
+std::string quoted(std::string_view word) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./@%";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string_view::npos) {
+    return std::string(word);
+  }
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+std::string command_line_text(int argc, const char* const* argv) {
+  std::string text = "bqsa-bench";
+  for (int i = 1; i < argc; ++i) text += " " + quoted(argv[i]);
+  return text;
+}
+
+/// What the options are read into, and the command that was chosen.
+struct CommandLine {
+  RunOptions run;
+  std::filesystem::path scenario_directory;
+  std::filesystem::path results_directory;
+  std::filesystem::path scenario;
+  std::filesystem::path trajectory;
+  std::vector<std::filesystem::path> files;
+  bool strict = false;
+  std::function<Status(const Console&)> command;
+};
+
+CLI::App* add_command(CLI::App& app, const char* name, const char* description) {
+  CLI::App* command = app.add_subcommand(name, description);
+  command->set_version_flag("--version", app.version());
+  command->footer(kFooter);
+  return command;
+}
+
+void declare(CLI::App& app, CommandLine& line) {
+  app.set_version_flag("--version", "bqsa-bench " + version_text());
+  app.footer(kFooter);
+  app.require_subcommand(1);
+
+  CLI::App* list = add_command(app, "list", "List methods with their parameters, and scenarios");
+  list->add_option("--scenarios", line.scenario_directory,
+                   "Directory of scenario files [./scenarios]");
+  list->callback([&line] {
+    line.command = [&line](const Console& console) {
+      return list_command(line.scenario_directory, console);
+    };
+  });
+
+  CLI::App* run = add_command(app, "run", "Run methods on scenarios, judge them, print the table");
+  run->add_option("SCENARIO", line.run.scenarios, "Scenario files")->required();
+  run->add_option("--method,-m", line.run.methods,
+                  "Method with parameters, M[:key=value,...]; repeatable [all methods]")
+      ->allow_extra_args(false);
+  run->add_option("--out,-o", line.run.directory,
+                  "Results directory; runs are added to an existing one")
+      ->required();
+  run->add_flag("--strict", line.run.strict, "Exit with 1 if a run is not judged a success");
+  run->add_flag("--quiet,-q", line.run.quiet, "Print neither progress nor table");
+  run->callback([&line] {
+    line.command = [&line](const Console& console) { return run_command(line.run, console); };
+  });
+
+  CLI::App* show = add_command(app, "show", "Print the table of a results directory");
+  show->add_option("DIR", line.results_directory, "Results directory")->required();
+  show->callback([&line] {
+    line.command = [&line](const Console& console) {
+      return show_command(line.results_directory, console);
+    };
+  });
+
+  CLI::App* judge = add_command(app, "judge", "Judge any trajectory of a scenario");
+  judge->add_option("SCENARIO", line.scenario, "Scenario file")->required();
+  judge->add_option("TRAJECTORY", line.trajectory, "CSV file t,q1..qn [s, rad]")->required();
+  judge->add_flag("--strict", line.strict, "Exit with 1 if it is not a success");
+  judge->callback([&line] {
+    line.command = [&line](const Console& console) {
+      return judge_command(line.scenario, line.trajectory, line.strict, console);
+    };
+  });
+
+  CLI::App* validate = add_command(app, "validate", "Check scenario files without running");
+  validate->add_option("FILE", line.files, "Scenario files")->required();
+  validate->callback([&line] {
+    line.command = [&line](const Console& console) {
+      return validate_command(line.files, console);
+    };
+  });
+}
+
+}  // namespace
+
+int run_program(int argc, const char* const* argv, const Console& console) {
+  try {
+    CLI::App app("Compares inverse-kinematics methods with obstacle avoidance on the same problems",
+                 "bqsa-bench");
+    CommandLine line;
+    line.run.command_line = command_line_text(argc, argv);
+    declare(app, line);
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+      const bool asked_for = error.get_exit_code() == 0;  // --help, --version
+      if (asked_for) return app.exit(error, console.out, console.err);
+      console.error(std::string(error.what()) + " (see --help)");
+      return kBadInput;
+    }
+    return line.command(console);
+  } catch (const std::exception& error) {
+    console.error(error.what());
+  } catch (...) {
+    console.error("something was thrown that is not a std::exception");
+  }
+  return kBadInput;
+}
+
+}  // namespace bqsa::harness

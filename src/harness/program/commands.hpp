@@ -1,0 +1,59 @@
+/// @file
+/// The commands of the program, after the command line was understood.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace bqsa::harness {
+
+/// Exit status of the program.
+enum Status {
+  kOk = 0,
+  kRunFailed = 1,  ///< with --strict: a run was not judged a success
+  kBadInput = 2,   ///< input that cannot be used, or results that cannot be written
+};
+
+/// Where the commands write.
+struct Console {
+  std::ostream& out;
+  std::ostream& err;
+  bool terminal = false;  ///< err is a terminal: progress may be shown there
+
+  /// `bqsa-bench: error: <message>`
+  void error(std::string_view message) const;
+};
+
+struct RunOptions {
+  std::vector<std::filesystem::path> scenarios;
+  std::vector<std::string> methods;  ///< `M[:key=value,...]`; none means all
+  std::filesystem::path directory;
+  bool strict = false;
+  bool quiet = false;        ///< neither progress nor table
+  std::string command_line;  ///< as recorded
+};
+
+/// Runs all methods on all scenarios and prints the table. A scenario that is refused does not stop
+/// the others; bad methods, equal scenario names and a directory that cannot be written to do,
+/// before anything runs.
+/// @throws InputError for the latter
+Status run_command(const RunOptions& options, const Console& console);
+
+/// Prints the methods and the scenarios `*.yaml` of a directory. An empty directory name stands for
+/// ./scenarios, which may be missing.
+Status list_command(const std::filesystem::path& scenarios, const Console& console);
+
+/// Prints the table of a results directory; lines that are not records are reported and left out.
+Status show_command(const std::filesystem::path& directory, const Console& console);
+
+/// Prints the judgement of one trajectory file.
+Status judge_command(const std::filesystem::path& scenario, const std::filesystem::path& trajectory,
+                     bool strict, const Console& console);
+
+/// Says of each scenario file whether it can be used.
+Status validate_command(const std::vector<std::filesystem::path>& files, const Console& console);
+
+}  // namespace bqsa::harness

@@ -1,0 +1,43 @@
+/// @file
+/// Where a result comes from: program, build and machine.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace bqsa::harness {
+
+/// Fixed when the program is built. The commit is that of the sources at the time of the build.
+struct BuildInfo {
+  std::string version;  ///< of the program
+  std::string commit;   ///< 40 hexadecimal digits, or "unknown" outside a git repository
+  bool dirty = false;   ///< tracked files differed from the commit
+  std::string compiler;
+  std::string build_type;
+  std::string flags;
+  bool assertions = false;
+  bool sanitizers = false;
+  std::vector<std::pair<std::string, std::string>> libraries;  ///< name, version
+};
+
+/// Taken when a run starts. "unknown" where the system does not say.
+struct MachineState {
+  std::string processor;
+  int cores = 0;
+  std::string governor;  ///< frequency governor of the first core
+  double load = 0;       ///< load average of the last minute, not a number if unknown
+  std::string os;
+  std::string date;  ///< UTC, ISO 8601, to the second
+};
+
+const BuildInfo& build_info();
+MachineState machine_state();
+
+/// `0.1.0 (commit 1a2b3c4d5e, modified)`, as `--version` prints it.
+std::string version_text();
+
+/// Why times of this build on this machine are only indicative; empty if they can be published.
+std::vector<std::string> reasons_against_times(const BuildInfo& build, const MachineState& machine);
+
+}  // namespace bqsa::harness

@@ -1,0 +1,53 @@
+/// @file
+/// A results directory: `runs.jsonl`, one line a run, and `trajectories/`.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bqsa/method.hpp"
+#include "harness/input_error.hpp"
+
+namespace bqsa::harness {
+
+/// Adds runs to a results directory. Lines are only ever appended.
+class ResultStore {
+ public:
+  /// Makes the directory if needed and makes sure that it can be written to. A last line of
+  /// `runs.jsonl` that was cut short is closed, so that new lines stand on their own.
+  /// @throws InputError if it cannot be written to
+  explicit ResultStore(const std::filesystem::path& directory);
+  ~ResultStore();
+  ResultStore(const ResultStore&) = delete;
+  ResultStore& operator=(const ResultStore&) = delete;
+
+  /// Writes `trajectories/<scenario>/<variant>.csv`, replacing an older one, and returns that path
+  /// relative to the directory.
+  /// @throws InputError if it cannot be written
+  std::string write_trajectory(const std::string& scenario, const std::string& variant,
+                               const Trajectory& trajectory) const;
+
+  /// Appends a record with one system call, so that whatever ends the program leaves whole lines.
+  /// @throws InputError if it cannot be written
+  void append(std::string_view record);
+
+ private:
+  std::filesystem::path directory_;
+  int file_ = -1;
+};
+
+/// One line of `runs.jsonl`.
+struct StoredLine {
+  int number = 0;  ///< counted from 1
+  std::string text;
+};
+
+std::filesystem::path runs_file(const std::filesystem::path& directory);
+
+/// All lines that are not empty, whole or not.
+/// @throws InputError if there is no such file or it cannot be read
+std::vector<StoredLine> read_lines(const std::filesystem::path& file);
+
+}  // namespace bqsa::harness

@@ -1,0 +1,213 @@
+#include "harness/results/run_record.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace bqsa::harness {
+namespace {
+
+/// Keeps the order of keys in which they are written here and documented. Numbers that are not
+/// finite become null.
+using Json = nlohmann::ordered_json;
+
+Json scenario_json(const Scenario& scenario) {
+  return {{"name", scenario.problem.name},
+          {"file", scenario.file.string()},
+          {"sha256", scenario.sha256}};
+}
+
+Json problem_json(const Problem& problem) {
+  const std::size_t links = problem.chain.links().size();
+  Json obstacles = Json::array();
+  for (const Obstacle& obstacle : problem.obstacles) obstacles.push_back(obstacle.name);
+  return {{"dimension", problem.dimension()},
+          {"joints", problem.chain.joints()},
+          {"links", links},
+          {"obstacles", obstacles},
+          {"nk", links * problem.obstacles.size()},
+          {"ticks", problem.ticks},
+          {"dt_s", problem.dt},
+          {"tolerance_m", problem.tolerance},
+          {"margin_m", problem.margin},
+          {"link_radius_m", problem.link_radius}};
+}
+
+Json method_json(const MethodSpec& method) {
+  Json parameters = Json::object();
+  for (const ParameterDeclaration& declared : method.entry.parameters) {
+    if (declared.choices.empty()) {
+      parameters[declared.name] = method.parameters.number(declared.name);
+    } else {
+      parameters[declared.name] = method.parameters.choice(declared.name);
+    }
+  }
+  return {{"name", method.entry.name},
+          {"variant", variant_name(method)},
+          {"changed", changed_parameters(method.parameters)},
+          {"parameters", parameters}};
+}
+
+/// Name of an obstacle, null for an index that names none.
+Json obstacle_json(const Problem& problem, int index) {
+  if (index < 0 || index >= static_cast<int>(problem.obstacles.size())) return nullptr;
+  return problem.obstacles[static_cast<std::size_t>(index)].name;
+}
+
+Json claimed_json(const Problem& problem, const RunOutcome& outcome) {
+  Json claimed = {{"status", name_of(outcome.claim)}};
+  if (outcome.claim == Claim::kInfeasible) {
+    claimed["tick"] = outcome.tick;
+    claimed["reason"] = name_of(outcome.reason);
+    claimed["link"] = outcome.link > 0 ? Json(outcome.link) : Json();
+    claimed["obstacle"] = obstacle_json(problem, outcome.obstacle);
+  } else if (outcome.claim == Claim::kCrashed) {
+    claimed["tick"] = outcome.tick;
+    claimed["message"] = outcome.message;
+  }
+  return claimed;
+}
+
+Json ticks_json(const Problem& problem, const RunOutcome& outcome) {
+  Json pairs = Json::array();
+  for (const ClampedPair& pair : outcome.clamped_pairs) {
+    pairs.push_back({{"link", pair.link},
+                     {"obstacle", obstacle_json(problem, pair.obstacle)},
+                     {"ticks", pair.ticks}});
+  }
+  return {{"free", outcome.free_ticks},
+          {"clamped", outcome.clamped_ticks},
+          {"clamped_pairs", pairs},
+          {"increments_total", outcome.increments_total},
+          {"increments_max", outcome.increments_max},
+          {"guard_fired", outcome.guard_fired}};
+}
+
+Json tip_error_json(const TipError& error) {
+  return {{"mean_m", error.mean},
+          {"rms_m", error.rms},
+          {"max_m", error.max},
+          {"max_x_m", error.max_per_axis.x()},
+          {"max_y_m", error.max_per_axis.y()},
+          {"max_z_m", error.max_per_axis.z()},
+          {"max_tick", error.max_tick}};
+}
+
+Json judged_json(const Problem& problem, const Judgement& judgement) {
+  Json failures = Json::array();
+  for (const Failure failure : judgement.failures) failures.push_back(name_of(failure));
+  Json contacts = Json::array();
+  for (const Contact& contact : judgement.contacts) {
+    contacts.push_back({{"link", contact.link},
+                        {"obstacle", obstacle_json(problem, contact.obstacle)},
+                        {"first_tick", contact.first_tick},
+                        {"at_tick", contact.at_tick},
+                        {"ticks", contact.ticks}});
+  }
+  return {{"success", judgement.success()},
+          {"failures", failures},
+          {"rows", judgement.rows},
+          {"contacts", contacts},
+          {"disagreement", judgement.disagreement},
+          {"touching", judgement.touching},
+          {"clearance_at_ticks_m", judgement.clearance_at_ticks},
+          {"clearance_m", judgement.clearance},
+          {"tip_error_at_ticks", tip_error_json(judgement.at_ticks)},
+          {"tip_error_between_ticks", tip_error_json(judgement.between_ticks)},
+          {"start_error_m", judgement.start_error},
+          {"max_joint_step_rad", judgement.max_joint_step},
+          {"max_joint_step_tick", judgement.max_joint_step_tick}};
+}
+
+Json counters_json(const WorkCounters& counters) {
+  return {{"quadratics", counters.quadratics},
+          {"point_pairs", counters.point_pairs},
+          {"distance_queries", counters.distance_queries},
+          {"kinematics", counters.kinematics},
+          {"jacobians", counters.jacobians},
+          {"linear_solves", counters.linear_solves},
+          {"iterations", counters.iterations}};
+}
+
+Json times_json(const RunTimes& times, bool success, const MachineState& machine) {
+  std::vector<std::string> against = reasons_against_times(build_info(), machine);
+  if (!success) against.insert(against.begin(), "not judged a success");
+  return {{"valid", success},
+          {"publishable", against.empty()},
+          {"against", against},
+          {"construct_s", times.construct_s},
+          {"prepare_s", times.prepare_s},
+          {"plan_s", times.plan_s},
+          {"first_step_s", times.first_step_s},
+          {"warm_steps", times.warm_steps},
+          {"warm_median_s", times.warm_median_s},
+          {"warm_p99_s", times.warm_p99_s},
+          {"warm_max_s", times.warm_max_s},
+          {"warm_max_tick", times.warm_max_tick}};
+}
+
+Json provenance_json(const MachineState& machine, const Circumstances& circumstances) {
+  const BuildInfo& build = build_info();
+  Json libraries = Json::object();
+  for (const auto& [name, version] : build.libraries) libraries[name] = version;
+  return {{"version", build.version},
+          {"commit", build.commit},
+          {"dirty", build.dirty},
+          {"compiler", build.compiler},
+          {"build_type", build.build_type},
+          {"flags", build.flags},
+          {"assertions", build.assertions},
+          {"sanitizers", build.sanitizers},
+          {"libraries", libraries},
+          {"processor", machine.processor},
+          {"cores", machine.cores},
+          {"governor", machine.governor},
+          {"load_average", machine.load},
+          {"os", machine.os},
+          {"date", machine.date},
+          {"seed", circumstances.settings.seed},
+          {"plan_budget_s", circumstances.settings.plan_budget_s},
+          {"command_line", circumstances.command_line}};
+}
+
+Json head_json(const Scenario& scenario, const MethodSpec& method) {
+  return {{"schema", "bqsa-run/1"},
+          {"scenario", scenario_json(scenario)},
+          {"problem", problem_json(scenario.problem)},
+          {"method", method_json(method)}};
+}
+
+/// Text that is not UTF-8, in a path say, is replaced rather than refused.
+std::string one_line(const Json& record) {
+  return record.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+std::string run_record(const Scenario& scenario, const MethodSpec& method,
+                       const RunOutcome& outcome, const Judgement& judgement,
+                       const MachineState& machine, const Circumstances& circumstances,
+                       const std::string& trajectory_file) {
+  const bool success = judgement.success();
+  Json record = head_json(scenario, method);
+  record["claimed"] = claimed_json(scenario.problem, outcome);
+  record["judged"] = judged_json(scenario.problem, judgement);
+  record["claim_holds"] = (outcome.claim == Claim::kSuccess) == success;
+  record["ticks"] = ticks_json(scenario.problem, outcome);
+  record["counters"] = counters_json(outcome.counters);
+  record["times"] = times_json(outcome.times, success, machine);
+  record["trajectory"] = trajectory_file;
+  record["provenance"] = provenance_json(machine, circumstances);
+  return one_line(record);
+}
+
+std::string not_applicable_record(const Scenario& scenario, const MethodSpec& method,
+                                  const std::string& why, const MachineState& machine,
+                                  const Circumstances& circumstances) {
+  Json record = head_json(scenario, method);
+  record["claimed"] = {{"status", "not applicable"}, {"message", why}};
+  record["judged"] = nullptr;
+  record["trajectory"] = nullptr;
+  record["provenance"] = provenance_json(machine, circumstances);
+  return one_line(record);
+}
+
+}  // namespace bqsa::harness

@@ -1,0 +1,33 @@
+/// @file
+/// One run as one line of JSON (schema bqsa-run/1, docs/results-format.md).
+#pragma once
+
+#include <string>
+
+#include "harness/judge/judge.hpp"
+#include "harness/method_spec.hpp"
+#include "harness/results/provenance.hpp"
+#include "harness/runner.hpp"
+#include "harness/scenario/scenario.hpp"
+
+namespace bqsa::harness {
+
+/// What all runs of one call have in common.
+struct Circumstances {
+  RunSettings settings;
+  std::string command_line;
+};
+
+/// A run that took place. Without a line break at the end.
+/// @param trajectory_file  relative to the results directory
+std::string run_record(const Scenario& scenario, const MethodSpec& method,
+                       const RunOutcome& outcome, const Judgement& judgement,
+                       const MachineState& machine, const Circumstances& circumstances,
+                       const std::string& trajectory_file);
+
+/// A pair of method and problem that does not fit, and why.
+std::string not_applicable_record(const Scenario& scenario, const MethodSpec& method,
+                                  const std::string& why, const MachineState& machine,
+                                  const Circumstances& circumstances);
+
+}  // namespace bqsa::harness

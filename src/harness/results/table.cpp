@@ -1,0 +1,242 @@
+#include "harness/results/table.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+#include <utility>
+
+#include "harness/judge/judge.hpp"
+
+namespace bqsa::harness {
+namespace {
+
+constexpr std::size_t kWidth = 120;
+
+constexpr std::string_view kLegend =
+    R"(+ success   x failure   ! the method's claim and the judge's verdict differ   - not applicable
+Success, decided from the joint trajectory alone: every row present and finite, from the given start; no link in an
+obstacle at or between ticks; largest tip error at ticks within the tolerance; joint limits and velocity limit (default
+15 deg a tick) kept. Self-collision is not judged.
+tip error   largest distance from the desired path, at ticks and on the straight joint motions between them
+clearance   smallest distance of a link to an obstacle, at or between ticks; negative inside; T: touching, within 0.001 mm
+max step    largest step of one joint in one tick
+time        of one control tick after the first, wall clock, median and 99th percentile; only for successes
+(6, name)   link 6, counted from the base, and the obstacle of that name; x 12: cleared by the method in 12 ticks
+)";
+
+/// The judge's word for a failure, as the verb of a verdict.
+std::string verdict_of(const std::string& failure) {
+  static const std::array<std::pair<Failure, const char*>, 9> kVerdicts{{
+      {Failure::kDisagreement, "JUDGES DISAGREE"},
+      {Failure::kNotFinite, "not finite"},
+      {Failure::kIncomplete, "incomplete"},
+      {Failure::kWrongStart, "wrong start"},
+      {Failure::kCollision, "collides"},
+      {Failure::kUndecided, "undecided"},
+      {Failure::kJump, "jumps"},
+      {Failure::kJointLimit, "breaks joint limits"},
+      {Failure::kDrift, "drifts"},
+  }};
+  for (const auto& [kind, verdict] : kVerdicts) {
+    if (failure == name_of(kind)) return verdict;
+  }
+  return failure;
+}
+
+bool claims_success(const TableRow& row) { return row.claim == "success"; }
+
+/// All that went wrong, the most telling first. A run that its method ended is not called
+/// incomplete.
+std::vector<std::string> verdicts(const TableRow& row) {
+  std::vector<std::string> list;
+  for (const std::string& failure : row.failures) {
+    const bool ended = failure == name_of(Failure::kIncomplete) && !claims_success(row);
+    list.push_back(ended ? row.claim : verdict_of(failure));
+  }
+  return list;
+}
+
+/// Three significant digits, as short as they allow; "-" where there is no number.
+std::string figure(double value) {
+  if (!std::isfinite(value)) return "-";
+  const double size = std::abs(value);
+  if (size == 0) return "0";
+  if (size < 1e-3) return fmt::format("{:.1e}", value);
+  return size < 100 ? fmt::format("{:.3g}", value) : fmt::format("{:.0f}", value);
+}
+
+std::string degrees(double rad) { return figure(rad * 180.0 / std::numbers::pi); }
+std::string millimetres(double m) { return figure(1e3 * m); }
+
+std::string time_cell(const TableRow& row) {
+  const std::string mark = row.against_times.empty() ? "" : "~";
+  if (std::isfinite(row.plan_s)) return fmt::format("{}plan {} ms", mark, figure(1e3 * row.plan_s));
+  if (!std::isfinite(row.step_median_s)) return "-";
+  return fmt::format("{}{:>8} {:>8}", mark, figure(1e6 * row.step_median_s),
+                     figure(1e6 * row.step_p99_s));
+}
+
+struct Column {
+  const char* head;
+  const char* unit;
+  bool left = false;
+};
+
+constexpr std::array<Column, 8> kColumns{{
+    {"method", "", true},
+    {"judged", "", true},
+    {"tip error", "at ticks mm"},
+    {"tip error", "between mm"},
+    {"clearance", "mm"},
+    {"max step", "deg"},
+    {"time per tick, us", "median      p99"},
+    {"claimed", "", true},
+}};
+
+using Cells = std::array<std::string, kColumns.size()>;
+
+Cells cells_of(const TableRow& row) {
+  if (!row.applicable) return {row.variant, "n/a", "-", "-", "-", "-", "-", "-"};
+  const std::vector<std::string> wrong = verdicts(row);
+  const bool moved = row.rows > 1;
+  const std::string clearance = millimetres(row.clearance_m) + (row.touching ? " T" : "");
+  return {row.variant,
+          row.success ? "success" : wrong.front(),
+          moved ? millimetres(row.tip_error_at_ticks_m) : "-",
+          moved ? millimetres(row.tip_error_between_ticks_m) : "-",
+          clearance,
+          moved ? degrees(row.max_joint_step_rad) : "-",
+          time_cell(row),
+          claims_success(row) ? "success" : row.claim.substr(0, row.claim.find(' '))};
+}
+
+char mark_of(const TableRow& row) {
+  if (!row.applicable) return '-';
+  if (!row.claim_holds) return '!';
+  return row.success ? '+' : 'x';
+}
+
+/// Breaks a list over lines of the table's width, each indented.
+std::string note(const std::string& label, const std::vector<std::string>& items) {
+  constexpr std::string_view kIndent = "      ";
+  std::string text;
+  std::string line = fmt::format("{}{}", kIndent, label);
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const std::string item = " " + items[i] + (i + 1 < items.size() ? "," : "");
+    if (line.size() + item.size() > kWidth && line.size() > kIndent.size()) {
+      text += line + '\n';
+      line = fmt::format("{} ", kIndent);
+    }
+    line += item;
+  }
+  return text + line + '\n';
+}
+
+std::string notes_of(const TableRow& row) {
+  if (!row.applicable) return note(row.claim_detail, {});
+  std::string text;
+  if (!row.claim_holds) {
+    text += note(claims_success(row) ? "! CLAIMED SUCCESS, JUDGED A FAILURE"
+                                     : "! CLAIMED " + row.claim + ", JUDGED A SUCCESS",
+                 {});
+  }
+  const std::vector<std::string> wrong = verdicts(row);
+  if (wrong.size() > 1) text += note("also:", {wrong.begin() + 1, wrong.end()});
+  if (!row.disagreement.empty()) text += note("judges:", {row.disagreement});
+  if (!claims_success(row)) {
+    text += note(fmt::format("{}: {}", row.claim, row.claim_detail), {});
+  }
+  if (!row.success && row.rows < row.ticks + 1) {
+    text += note(
+        fmt::format("figures cover the first {} of {} ticks", std::max(row.rows - 1, 0), row.ticks),
+        {});
+  }
+  if (!row.collided.empty()) text += note("collided:", row.collided);
+  if (!row.clamped.empty()) text += note("cleared: ", row.clamped);
+  if (row.guard_fired > 0) {
+    text += note(fmt::format("guard fired in {} of {} ticks", row.guard_fired, row.ticks), {});
+  }
+  if (!row.changed.empty()) text += note("with", {row.changed});
+  if (!row.against_times.empty()) text += note("~ times indicative only:", row.against_times);
+  return text;
+}
+
+using Widths = std::array<std::size_t, kColumns.size()>;
+
+std::string line_of(char mark, const Cells& cells, const Widths& widths) {
+  std::string line = fmt::format("{} ", mark);
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    const std::string text = kColumns[c].left ? fmt::format("{:<{}}", cells[c], widths[c])
+                                              : fmt::format("{:>{}}", cells[c], widths[c]);
+    line += "  " + text;
+  }
+  return line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
+}
+
+/// The last run of each scenario and variant, at the place of the first.
+std::vector<TableRow> last_runs(const std::vector<TableRow>& rows) {
+  std::vector<TableRow> shown;
+  for (const TableRow& row : rows) {
+    const auto older = std::find_if(shown.begin(), shown.end(), [&row](const TableRow& other) {
+      return other.scenario == row.scenario && other.variant == row.variant;
+    });
+    if (older == shown.end()) {
+      shown.push_back(row);
+    } else {
+      *older = row;
+    }
+  }
+  return shown;
+}
+
+template <typename Key>
+std::vector<std::string> distinct(const std::vector<TableRow>& rows, Key key) {
+  std::vector<std::string> values;
+  for (const TableRow& row : rows) {
+    if (std::find(values.begin(), values.end(), key(row)) == values.end()) {
+      values.push_back(key(row));
+    }
+  }
+  return values;
+}
+
+}  // namespace
+
+std::string render_table(const std::vector<TableRow>& all_rows) {
+  if (all_rows.empty()) return "no runs\n";
+  const std::vector<TableRow> rows = last_runs(all_rows);
+  Cells heads;
+  Cells units;
+  Widths widths;
+  for (std::size_t c = 0; c < kColumns.size(); ++c) {
+    heads[c] = kColumns[c].head;
+    units[c] = kColumns[c].unit;
+    widths[c] = std::max(heads[c].size(), units[c].size());
+    for (const TableRow& row : rows) widths[c] = std::max(widths[c], cells_of(row)[c].size());
+  }
+
+  std::string text;
+  for (const std::string& scenario :
+       distinct(rows, [](const TableRow& row) { return row.scenario; })) {
+    std::string problem;
+    std::string block;
+    for (const TableRow& row : rows) {
+      if (row.scenario != scenario) continue;
+      problem = row.problem;
+      block += line_of(mark_of(row), cells_of(row), widths) + notes_of(row);
+    }
+    text += fmt::format("{}: {}\n", scenario, problem);
+    text += line_of(' ', heads, widths) + line_of(' ', units, widths) + block + '\n';
+  }
+  text += kLegend;
+  for (const std::string& build : distinct(rows, [](const TableRow& row) { return row.build; })) {
+    text += "made by " + build + '\n';
+  }
+  return text;
+}
+
+}  // namespace bqsa::harness

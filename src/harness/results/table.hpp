@@ -1,0 +1,18 @@
+/// @file
+/// The table that a reader judges methods by.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/results/table_row.hpp"
+
+namespace bqsa::harness {
+
+/// Plain text of at most 120 columns (longer names excepted): a block a scenario, a row a method,
+/// notes below the rows that need them, a legend with the definition of success. Blocks and rows
+/// stand in the order of first appearance; of several runs of the same scenario and variant the
+/// last counts.
+std::string render_table(const std::vector<TableRow>& rows);
+
+}  // namespace bqsa::harness

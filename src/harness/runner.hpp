@@ -1,0 +1,80 @@
+/// @file
+/// Runs one method on one problem, keeps what it did and takes the time. Judges nothing.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bqsa/method.hpp"
+
+namespace bqsa::harness {
+
+/// What the method itself says of its run.
+enum class Claim {
+  kSuccess,     ///< every tick free or clamped, or a plan claimed as solved
+  kInfeasible,  ///< a reactive method gave up at a tick
+  kUnsolved,    ///< a planning method found no plan
+  kCrashed,     ///< an exception, or an answer that cannot be used
+};
+
+struct RunSettings {
+  std::uint64_t seed = 1;     ///< of all randomness of a planning method
+  double plan_budget_s = 10;  ///< wall time that a planning method may use [s]
+};
+
+/// Wall times, by a monotonic clock that the method does not see. Not a number where there was
+/// none.
+struct RunTimes {
+  double construct_s;
+  double prepare_s;
+  double plan_s;        ///< planning methods only
+  double first_step_s;  ///< the cold step of tick 1; reactive methods only, like all below
+  int warm_steps = 0;   ///< steps of the ticks from 2 on
+  double warm_median_s;
+  double warm_p99_s;  ///< smallest step time that at least 99 % of the warm steps do not exceed
+  double warm_max_s;
+  int warm_max_tick = 0;
+
+  RunTimes();
+};
+
+/// A link-obstacle pair that the method cleared.
+struct ClampedPair {
+  int link = 0;
+  int obstacle = 0;  ///< index into Problem::obstacles
+  int ticks = 0;     ///< number of ticks in which it was cleared
+};
+
+struct RunOutcome {
+  Claim claim = Claim::kSuccess;
+  int tick = 0;  ///< infeasible or crashed: the tick at which; 0 if before the first
+  Infeasible reason = Infeasible::kNot;
+  int link = 0;         ///< infeasible: the link that could not be freed, else 0
+  int obstacle = -1;    ///< infeasible: index of its obstacle, else -1
+  std::string message;  ///< crashed: what happened
+
+  int free_ticks = 0;
+  int clamped_ticks = 0;
+  int guard_fired = 0;                     ///< ticks in which the paper variant fell back
+  std::vector<ClampedPair> clamped_pairs;  ///< by link, then obstacle
+  std::int64_t increments_total = 0;       ///< clamping increments of all ticks
+  int increments_max = 0;                  ///< of one clamp
+
+  WorkCounters counters;
+  RunTimes times;
+  Trajectory
+      trajectory;  ///< from the start to the last tick answered; the last safe part if infeasible
+};
+
+/// Constructs, prepares and runs the method. A reactive method is given its own last joint angles
+/// and x_d(t) tick by tick until the first infeasible tick or unusable answer (wrong number of
+/// joint angles, one that is not finite, a link or obstacle that does not exist); a row with joint
+/// angles that are not finite is kept for the judge. A plan is kept as it is. Exceptions of the
+/// method end up in the outcome.
+RunOutcome run_method(const Problem& problem, const MethodEntry& method,
+                      const ParameterValues& parameters, const RunSettings& settings = {});
+
+const char* name_of(Claim claim);
+
+}  // namespace bqsa::harness
