@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# From a fresh clone on Debian 12 to the results: installs what is missing, builds, runs all methods on
+# all scenarios, prints the table.
+set -euo pipefail
+cd "$(dirname "$0")"
+start=$SECONDS
+out=results/local/reproduce
+logs=build/logs
+
+tools/install_packages.sh program
+echo "building (first time: a few minutes)"
+tools/quiet.sh $logs/configure.log cmake --preset release \
+  -DBQSA_BUILD_TESTS=OFF -DBQSA_BUILD_BENCHMARKS=OFF
+tools/quiet.sh $logs/build.log cmake --build --preset release --target bqsa-bench
+
+rm -rf "$out"
+program=build/release/src/harness/program/bqsa-bench
+"$program" run scenarios/*.yaml --out "$out"
+
+seconds=$((SECONDS - start))
+echo
+echo "results: $out (runs.jsonl, trajectories); show them again: $program show $out"
+printf 'elapsed: %d min %d s\n' $((seconds / 60)) $((seconds % 60))

@@ -1,0 +1,59 @@
+#!/usr/bin/env bash
+# Builds and runs the tests.
+#   ./test.sh         release build, all tests
+#   ./test.sh --full  also: sanitizers, headers on their own, clang-tidy, layout of the code
+set -euo pipefail
+cd "$(dirname "$0")"
+start=$SECONDS
+logs=build/logs
+jobs=$(nproc)
+
+full=false
+case "${1:-}" in
+  "") ;;
+  --full) full=true ;;
+  *) echo "usage: ./test.sh [--full]" >&2; exit 2 ;;
+esac
+
+step() {
+  echo
+  echo "== $*"
+}
+
+build() {  # PRESET [CMAKE OPTION...]
+  local preset=$1
+  shift
+  tools/quiet.sh "$logs/configure-$preset.log" cmake --preset "$preset" \
+    -DBQSA_BUILD_TESTS=ON -DBQSA_BUILD_BENCHMARKS=ON "$@"
+  tools/quiet.sh "$logs/build-$preset.log" cmake --build --preset "$preset"
+}
+
+if $full; then
+  tools/install_packages.sh program tests full
+
+  step "layout: clang-format"
+  git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run --Werror
+
+  step "sanitizers: build and tests"
+  build sanitize
+  ctest --preset sanitize --parallel "$jobs" --progress
+
+  step "release: build, every header on its own"
+  build release -DBQSA_CHECK_HEADERS=ON
+
+  step "static analysis: clang-tidy"
+  git ls-files 'src/*.cpp' | xargs -P "$jobs" -n 4 clang-tidy -p build/release --quiet \
+    --warnings-as-errors='*' 2>/dev/null
+else
+  tools/install_packages.sh program tests
+  step "release: build (--full adds sanitizers, header check, clang-tidy, layout)"
+  build release
+fi
+
+step "release: tests"
+status=0
+ctest --preset release --parallel "$jobs" --progress || status=$?
+
+seconds=$((SECONDS - start))
+printf '\nelapsed: %d min %d s\n' $((seconds / 60)) $((seconds % 60))
+exit $status

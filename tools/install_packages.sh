@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# Installs what packages.txt lists for the given steps and is missing; does nothing if all is there.
+#   tools/install_packages.sh program tests
+# Without the rights to install it prints the command to run instead and fails.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+missing=()
+for step in "$@"; do
+  while read -r package; do
+    status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
+    [ "$status" = installed ] || missing+=("$package")
+  done < <(awk -v step="$step" '!/^#/ && $2 == step { print $1 }' packages.txt)
+done
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+if [ "$(id -u)" = 0 ]; then
+  as_root=(env)
+elif sudo -n true 2>/dev/null; then
+  as_root=(sudo -n env)
+elif command -v sudo >/dev/null && [ -t 0 ]; then
+  as_root=(sudo env)
+else
+  echo "missing packages, and no right to install them; as root run:" >&2
+  echo "  apt-get update && apt-get install -y --no-install-recommends ${missing[*]}" >&2
+  exit 1
+fi
+
+echo "installing: ${missing[*]}"
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+if ! { "${as_root[@]}" apt-get update &&
+       "${as_root[@]}" DEBIAN_FRONTEND=noninteractive \
+         apt-get install -y --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
+  cat "$log" >&2
+  echo "installing packages failed" >&2
+  exit 1
+fi
