@@ -1,5 +1,6 @@
 /// @file
-/// The judge: decides success from the joint trajectory alone, with kinematics and distances of its own.
+/// The judge: decides success from the joint trajectory alone, with kinematics and distances of its
+/// own.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,6 +9,7 @@
 
 #include "bqsa/method.hpp"
 #include "bqsa/problem.hpp"
+#include "harness/judge/link_scene.hpp"
 
 namespace bqsa::harness {
 
@@ -18,19 +20,19 @@ enum class Failure {
   kIncomplete,    ///< rows missing (a method that stopped) or too many, or wrong times or width
   kWrongStart,    ///< row 0 is not the problem's start
   kCollision,     ///< a link in an obstacle, at or between ticks
-  kUndecided,     ///< freedom between two ticks could not be proven within the limit on subdivisions
-  kJump,          ///< a joint step beyond the velocity limit (default 15 degrees a tick)
-  kJointLimit,    ///< a joint beyond its limits
-  kDrift,         ///< tip error at a tick beyond the scenario's tolerance
+  kUndecided,   ///< freedom between two ticks could not be proven within the limit on subdivisions
+  kJump,        ///< a joint step beyond the velocity limit (default 15 degrees a tick)
+  kJointLimit,  ///< a joint beyond its limits
+  kDrift,       ///< tip error at a tick beyond the scenario's tolerance
 };
 
 /// A link in an obstacle. Names as in the paper: (6, obstacle).
 struct Contact {
-  int link = 0;           ///< 1-based Denavit-Hartenberg row; a tool is one more
-  int obstacle = 0;       ///< index into Problem::obstacles
-  int first_tick = 0;     ///< first tick at whose end, or in the motion to which, it is in contact
-  bool at_tick = false;   ///< seen at a tick, not only between two
-  int ticks = 0;          ///< number of ticks at which it is in contact
+  int link = 0;          ///< 1-based Denavit-Hartenberg row; a tool is one more
+  int obstacle = 0;      ///< index into Problem::obstacles
+  int first_tick = 0;    ///< first tick at whose end, or in the motion to which, it is in contact
+  bool at_tick = false;  ///< seen at a tick, not only between two
+  int ticks = 0;         ///< number of ticks at which it is in contact
 };
 
 /// Tip error in metres.
@@ -50,24 +52,34 @@ struct Judgement {
   std::vector<Contact> contacts;  ///< link-obstacle pairs in collision, by first tick
   std::string disagreement;       ///< where and by how much FCL and the exact distance differ
 
-  bool touching = false;          ///< came within 1e-3 mm of contact: free, flagged
-  double clearance_at_ticks = 0;  ///< smallest distance of a link (with its radius) to an obstacle [m]
-  double clearance = 0;           ///< the same at ticks and at all configurations visited in between [m]
+  bool touching = false;  ///< came within 1e-3 mm of contact: free, flagged
+  double clearance_at_ticks =
+      0;                 ///< smallest distance of a link (with its radius) to an obstacle [m]
+  double clearance = 0;  ///< the same at ticks and at all configurations visited in between [m]
 
-  TipError at_ticks;              ///< counted from tick 1
-  TipError between_ticks;         ///< sampled on the straight joint motion, against x_d at that time
-  double start_error = 0;         ///< tip error of row 0 [m]
-  double max_joint_step = 0;      ///< largest joint step of one tick [rad]
+  TipError at_ticks;          ///< counted from tick 1
+  TipError between_ticks;     ///< sampled on the straight joint motion, against x_d at that time
+  double start_error = 0;     ///< tip error of row 0 [m]
+  double max_joint_step = 0;  ///< largest joint step of one tick [rad]
   int max_joint_step_tick = 0;
 };
 
 /// Judges trajectories of one problem. Shares no code with src/bqsa but the plain data it reads.
+///
+/// Joint angles are taken as they are: a turn by 2 pi is a step of 2 pi. Rows before the first one
+/// that is not finite or has the wrong width are judged in full, whatever else is wrong.
 class Judge {
  public:
   /// Clearance within this of contact, on either side, is "touching" [m].
   static constexpr double kTouching = 1e-6;
 
-  /// Runs the self-test of FCL.
+  /// Limits on the work between ticks, so that no trajectory can stall the judge: pairs read in one
+  /// motion, and pairs read in a run, kVisitsOfAMotion + kVisitsPerMotion * motions. What is still
+  /// open when either is used up is `kUndecided`.
+  static constexpr long kVisitsOfAMotion = 1L << 16;
+  static constexpr long kVisitsPerMotion = 1L << 12;
+
+  /// The problem outlives the judge. Runs the self-test of FCL.
   /// @throws std::runtime_error if FCL fails one of its known hits or misses
   explicit Judge(const Problem& problem);
 
@@ -76,6 +88,7 @@ class Judge {
 
  private:
   const Problem& problem_;
+  LinkScene scene_;
 };
 
 const char* name_of(Failure failure);

@@ -1,0 +1,269 @@
+#include "harness/judge/judge.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "harness/judge/motion_check.hpp"
+
+namespace bqsa::harness {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr double kAngleSlack = 1e-9;     // rounding of joint angles that is forgiven [rad]
+constexpr double kRelativeSlack = 1e-9;  // the same of times and joint steps, as a part of them
+constexpr int kTipSamples = 10;          // tip errors between two ticks
+
+/// The rows that can be judged: finite, of the right width, and no more than the problem has.
+std::vector<VectorXd> judgeable_rows(const Problem& problem, const Trajectory& trajectory,
+                                     std::set<Failure>& failures) {
+  const std::size_t expected = static_cast<std::size_t>(problem.ticks) + 1;
+  if (trajectory.q.size() != expected || trajectory.t.size() != trajectory.q.size()) {
+    failures.insert(Failure::kIncomplete);
+  }
+  std::vector<VectorXd> rows;
+  for (std::size_t k = 0; k < std::min(trajectory.q.size(), expected); ++k) {
+    const JointVector& q = trajectory.q[k];
+    const bool timed = k < trajectory.t.size();
+    if (!q.allFinite() || (timed && !std::isfinite(trajectory.t[k]))) {
+      failures.insert(Failure::kNotFinite);
+      break;
+    }
+    if (q.size() != problem.start.size()) {
+      failures.insert(Failure::kIncomplete);
+      break;
+    }
+    const double t = static_cast<double>(k) * problem.dt;
+    if (timed && !(std::abs(trajectory.t[k] - t) <= kRelativeSlack * std::max(t, problem.dt))) {
+      failures.insert(Failure::kIncomplete);
+    }
+    rows.push_back(q);
+  }
+  return rows;
+}
+
+void check_joints(const Problem& problem, const std::vector<VectorXd>& rows, Judgement& judgement,
+                  std::set<Failure>& failures) {
+  if ((rows[0] - problem.start).cwiseAbs().maxCoeff() > kAngleSlack) {
+    failures.insert(Failure::kWrongStart);
+  }
+  const JointLimits& limits = problem.limits;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    for (int j = 0; j < rows[k].size(); ++j) {
+      const double q = rows[k](j);
+      if ((limits.lower.size() > 0 && q < limits.lower(j) - kAngleSlack) ||
+          (limits.upper.size() > 0 && q > limits.upper(j) + kAngleSlack)) {
+        failures.insert(Failure::kJointLimit);
+      }
+      if (k == 0) continue;
+      const double step = std::abs(q - rows[k - 1](j));
+      if (step > problem.max_step(j) * (1 + kRelativeSlack)) failures.insert(Failure::kJump);
+      if (step > judgement.max_joint_step) {
+        judgement.max_joint_step = step;
+        judgement.max_joint_step_tick = static_cast<int>(k);
+      }
+    }
+  }
+}
+
+/// Gathers tip errors into their statistics.
+class TipErrors {
+ public:
+  void add(const Vector3d& error, int tick) {
+    const double size = error.norm();
+    ++count_;
+    sum_ += size;
+    sum_of_squares_ += size * size;
+    result_.max_per_axis = result_.max_per_axis.cwiseMax(error.cwiseAbs());
+    if (size > result_.max) {
+      result_.max = size;
+      result_.max_tick = tick;
+    }
+  }
+
+  TipError result() const {
+    TipError result = result_;
+    if (count_ > 0) {
+      result.mean = sum_ / count_;
+      result.rms = std::sqrt(sum_of_squares_ / count_);
+    }
+    return result;
+  }
+
+ private:
+  TipError result_;
+  double sum_ = 0;
+  double sum_of_squares_ = 0;
+  double count_ = 0;
+};
+
+void check_tip(const Problem& problem, const JudgeKinematics& kinematics,
+               const std::vector<VectorXd>& rows, Judgement& judgement,
+               std::set<Failure>& failures) {
+  PointPositions positions;
+  const auto error = [&](const VectorXd& q, double tick) {
+    kinematics.place(q, positions);
+    return Vector3d(positions.tip() - problem.desired_tip(tick * problem.dt));
+  };
+  judgement.start_error = error(rows[0], 0).norm();
+  TipErrors at_ticks, between_ticks;
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    const int tick = static_cast<int>(k);
+    at_ticks.add(error(rows[k], tick), tick);
+    for (int sample = 1; sample <= kTipSamples; ++sample) {
+      const double s = static_cast<double>(sample) / (kTipSamples + 1);
+      between_ticks.add(error(between(rows[k - 1], rows[k], s), tick - 1 + s), tick);
+    }
+  }
+  judgement.at_ticks = at_ticks.result();
+  judgement.between_ticks = between_ticks.result();
+  if (!(judgement.at_ticks.max <= problem.tolerance)) failures.insert(Failure::kDrift);
+}
+
+/// Follows the links through the whole run, tick by tick and motion by motion.
+class CollisionCheck {
+ public:
+  CollisionCheck(const LinkScene& scene, Judgement& judgement, std::set<Failure>& failures)
+      : scene_(scene), motion_(scene), judgement_(judgement), failures_(failures) {}
+
+  void run(const std::vector<VectorXd>& rows) {
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    judgement_.clearance_at_ticks = judgement_.clearance = kFar;
+    visits_left_ =
+        Judge::kVisitsOfAMotion + Judge::kVisitsPerMotion * (static_cast<long>(rows.size()) - 1);
+    std::vector<double> before;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const int tick = static_cast<int>(k);
+      const std::vector<double> now = check_tick(rows[k], tick);
+      if (k > 0) check_motion(rows[k - 1], rows[k], tick, before, now);
+      before = now;
+    }
+    judgement_.clearance = std::min(judgement_.clearance, judgement_.clearance_at_ticks);
+    for (const auto& [names, contact] : contacts_) judgement_.contacts.push_back(contact);
+    std::stable_sort(
+        judgement_.contacts.begin(), judgement_.contacts.end(),
+        [](const Contact& a, const Contact& b) { return a.first_tick < b.first_tick; });
+    if (!contacts_.empty()) failures_.insert(Failure::kCollision);
+  }
+
+ private:
+  /// Reads all pairs; returns their clearances.
+  std::vector<double> check_tick(const VectorXd& q, int tick) {
+    std::vector<double> clearances;
+    scene_.kinematics().place(q, positions_);
+    for (const LinkObstaclePair& pair : scene_.pairs()) {
+      const PairReading reading = scene_.read(positions_, pair, FclQuestion::kHitAndDistance);
+      clearances.push_back(reading.clearance);
+      judgement_.clearance_at_ticks = std::min(judgement_.clearance_at_ticks, reading.clearance);
+      if (!reading.contradiction.empty()) {
+        disagree(fmt::format("tick {}: link {}, obstacle {}: {}", tick, scene_.link(pair).number,
+                             pair.obstacle, reading.contradiction));
+      }
+      if (reading.clearance < -Judge::kTouching) {
+        Contact& contact = contact_of(pair, tick);
+        contact.at_tick = true;
+        ++contact.ticks;
+      } else if (reading.clearance <= Judge::kTouching) {
+        judgement_.touching = true;
+      }
+    }
+    return clearances;
+  }
+
+  /// Follows the motion to `tick` for the pairs that are free at both ends and near enough to meet.
+  void check_motion(const VectorXd& from, const VectorXd& to, int tick,
+                    const std::vector<double>& before, const std::vector<double>& after) {
+    const std::vector<double> travel = motion_.travel(from, to);
+    std::vector<LinkObstaclePair> open;
+    for (std::size_t k = 0; k < scene_.pairs().size(); ++k) {
+      const LinkObstaclePair& pair = scene_.pairs()[k];
+      const double clearance = std::min(before[k], after[k]);
+      const bool collides_at_an_end = clearance < -Judge::kTouching;
+      // Both checkers agreed on the clearance at the ends, and the link is within half its way of
+      // one.
+      const bool too_far = clearance > travel[static_cast<std::size_t>(pair.link)] / 2;
+      if (!collides_at_an_end && !too_far) open.push_back(pair);
+    }
+    if (open.empty()) return;
+    const MotionVerdict verdict =
+        motion_.follow(from, to, open, std::min(visits_left_, Judge::kVisitsOfAMotion));
+    visits_left_ = std::max(0L, visits_left_ - verdict.visits);
+    judgement_.clearance = std::min(judgement_.clearance, verdict.clearance);
+    judgement_.touching = judgement_.touching || verdict.touching;
+    if (!verdict.contradiction.empty()) {
+      disagree(fmt::format("motion to tick {}: {}", tick, verdict.contradiction));
+    }
+    if (!verdict.undecided.empty()) failures_.insert(Failure::kUndecided);
+    for (const LinkObstaclePair& pair : verdict.colliding) contact_of(pair, tick);
+  }
+
+  void disagree(const std::string& where) {
+    failures_.insert(Failure::kDisagreement);
+    if (judgement_.disagreement.empty()) judgement_.disagreement = where;
+  }
+
+  Contact& contact_of(const LinkObstaclePair& pair, int tick) {
+    const Contact fresh{
+        .link = scene_.link(pair).number, .obstacle = pair.obstacle, .first_tick = tick};
+    return contacts_.try_emplace({fresh.link, fresh.obstacle}, fresh).first->second;
+  }
+
+  const LinkScene& scene_;
+  MotionCheck motion_;
+  Judgement& judgement_;
+  std::set<Failure>& failures_;
+  PointPositions positions_;
+  std::map<std::pair<int, int>, Contact> contacts_;
+  long visits_left_ = 0;
+};
+
+}  // namespace
+
+Judge::Judge(const Problem& problem) : problem_(problem), scene_(problem) { FclCheck::self_test(); }
+
+Judgement Judge::judge(const Trajectory& trajectory) const {
+  Judgement judgement;
+  std::set<Failure> failures;
+  const std::vector<VectorXd> rows = judgeable_rows(problem_, trajectory, failures);
+  judgement.rows = static_cast<int>(rows.size());
+  if (!rows.empty()) {
+    check_joints(problem_, rows, judgement, failures);
+    check_tip(problem_, scene_.kinematics(), rows, judgement, failures);
+    CollisionCheck(scene_, judgement, failures).run(rows);
+  }
+  judgement.failures.assign(failures.begin(), failures.end());
+  return judgement;
+}
+
+const char* name_of(Failure failure) {
+  switch (failure) {
+    case Failure::kDisagreement:
+      return "disagreement";
+    case Failure::kNotFinite:
+      return "not_finite";
+    case Failure::kIncomplete:
+      return "incomplete";
+    case Failure::kWrongStart:
+      return "wrong_start";
+    case Failure::kCollision:
+      return "collision";
+    case Failure::kUndecided:
+      return "undecided";
+    case Failure::kJump:
+      return "jump";
+    case Failure::kJointLimit:
+      return "joint_limit";
+    case Failure::kDrift:
+      return "drift";
+  }
+  return "unknown";
+}
+
+}  // namespace bqsa::harness

@@ -1,0 +1,80 @@
+#include "harness/judge/link_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "harness/judge/exact_distance.hpp"
+#include "harness/judge/judge.hpp"
+
+namespace bqsa::harness {
+namespace {
+
+std::vector<Ellipsoid> shapes_of(const std::vector<Obstacle>& obstacles) {
+  std::vector<Ellipsoid> shapes;
+  for (const Obstacle& obstacle : obstacles) shapes.push_back(obstacle.shape);
+  return shapes;
+}
+
+}  // namespace
+
+std::string contradiction(double exact_clearance, bool fcl_hit) {
+  if (!std::isfinite(exact_clearance)) return "the exact clearance is not finite";
+  if (fcl_hit && exact_clearance > Judge::kTouching) {
+    return fmt::format("FCL hits, exact clearance {:.3e} m", exact_clearance);
+  }
+  if (!fcl_hit && exact_clearance < -Judge::kTouching) {
+    return fmt::format("FCL misses, exact depth {:.3e} m", -exact_clearance);
+  }
+  return {};
+}
+
+std::string contradiction(double exact_clearance, const FclAnswer& fcl) {
+  const std::string verdict = contradiction(exact_clearance, fcl.hit);
+  if (!verdict.empty() || fcl.hit) return verdict;
+  // FCL marks contact by a negative distance, and the exact depth has no counterpart in FCL.
+  const double difference = std::abs(std::max(fcl.distance, 0.0) - std::max(exact_clearance, 0.0));
+  if (std::isfinite(fcl.distance) && difference <= kFclTolerance) return {};
+  return fmt::format("FCL clearance {:.9e} m, exact clearance {:.9e} m", fcl.distance,
+                     exact_clearance);
+}
+
+LinkScene::LinkScene(const Problem& problem)
+    : kinematics_(problem.chain.description()),
+      obstacles_(shapes_of(problem.obstacles)),
+      link_radius_(problem.link_radius),
+      fcl_(obstacles_, link_radius_) {
+  for (int link = 0; link < static_cast<int>(kinematics_.links().size()); ++link) {
+    for (int obstacle = 0; obstacle < static_cast<int>(obstacles_.size()); ++obstacle) {
+      pairs_.push_back({link, obstacle});
+    }
+  }
+}
+
+PairReading LinkScene::read(const PointPositions& positions, const LinkObstaclePair& pair,
+                            FclQuestion question) const {
+  const LinkSegment& ends = link(pair);
+  const Eigen::Vector3d& start = positions.points[static_cast<std::size_t>(ends.start)];
+  const Eigen::Vector3d& end = positions.points[static_cast<std::size_t>(ends.end)];
+  const Ellipsoid& obstacle = obstacles_[static_cast<std::size_t>(pair.obstacle)];
+
+  const SegmentDistance exact = exact_distance(start, end, obstacle);
+  PairReading reading;
+  reading.clearance = exact.clearance() - link_radius_;
+  reading.normal = exact.normal;
+  const Eigen::Vector3d along_axes = obstacle.rotation().transpose() * exact.normal;
+  reading.offset =
+      exact.normal.dot(obstacle.center()) + obstacle.semi_axes().cwiseProduct(along_axes).norm();
+
+  const bool hit = fcl_.collides(start, end, pair.obstacle);
+  if (hit || question == FclQuestion::kHit) {
+    reading.contradiction = contradiction(reading.clearance, hit);
+  } else {
+    const double distance = fcl_.distance(start, end, pair.obstacle);
+    reading.contradiction = contradiction(reading.clearance, FclAnswer{hit, distance});
+  }
+  return reading;
+}
+
+}  // namespace bqsa::harness

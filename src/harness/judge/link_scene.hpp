@@ -1,0 +1,80 @@
+/// @file
+/// The links of an arm among the obstacles, read by two checkers that must not contradict each
+/// other.
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "bqsa/problem.hpp"
+#include "harness/judge/fcl_check.hpp"
+#include "harness/judge/judge_kinematics.hpp"
+
+namespace bqsa::harness {
+
+/// How far FCL's clearance may be off [m]. Measured on spheres, needles and sheets: 1e-9 at most,
+/// and by others 1.4e-7 close to contact.
+inline constexpr double kFclTolerance = 5e-7;
+
+/// What FCL says of a pair.
+struct FclAnswer {
+  bool hit = false;
+  double distance = 0;  ///< [m], of a pair that does not hit
+};
+
+/// Why the two checkers contradict each other; empty if they do not.
+///
+/// A hit against a miss is a contradiction where the exact clearance is further from contact than
+/// the touching band; two distances may differ by kFclTolerance. Numbers that are not finite
+/// contradict.
+/// @param exact_clearance  [m], negative for the depth of a penetration
+std::string contradiction(double exact_clearance, const FclAnswer& fcl);
+
+/// The same where FCL was asked for its verdict alone.
+std::string contradiction(double exact_clearance, bool fcl_hit);
+
+/// A link and an obstacle, as indices into LinkScene::links() and Problem::obstacles.
+struct LinkObstaclePair {
+  int link = 0;
+  int obstacle = 0;
+};
+
+/// A pair at one configuration.
+struct PairReading {
+  double clearance = 0;  ///< of the link with its radius; minus the depth if they meet [m]
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  ///< of a plane that proves the clearance
+  double offset = 0;          ///< the obstacle lies in normal . x <= offset [m]
+  std::string contradiction;  ///< of the two checkers
+};
+
+enum class FclQuestion { kHit, kHitAndDistance };
+
+class LinkScene {
+ public:
+  /// The problem's description, obstacles and radius are copied.
+  explicit LinkScene(const Problem& problem);
+
+  const JudgeKinematics& kinematics() const { return kinematics_; }
+  const LinkSegment& link(const LinkObstaclePair& pair) const {
+    return kinematics_.links()[static_cast<std::size_t>(pair.link)];
+  }
+  double link_radius() const { return link_radius_; }
+
+  /// All pairs of a link and an obstacle.
+  const std::vector<LinkObstaclePair>& pairs() const { return pairs_; }
+
+  /// Reads a pair by the exact distance and by FCL.
+  PairReading read(const PointPositions& positions, const LinkObstaclePair& pair,
+                   FclQuestion question) const;
+
+ private:
+  JudgeKinematics kinematics_;
+  std::vector<Ellipsoid> obstacles_;
+  double link_radius_;
+  FclCheck fcl_;
+  std::vector<LinkObstaclePair> pairs_;
+};
+
+}  // namespace bqsa::harness

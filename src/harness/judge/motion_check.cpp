@@ -1,0 +1,171 @@
+#include "harness/judge/motion_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "harness/judge/judge.hpp"
+
+namespace bqsa::harness {
+namespace {
+
+/// Part of the touching band to which the end of the bisection is resolved.
+constexpr double kResolution = Judge::kTouching / 16;
+
+/// Half an interval of this depth is lost beside 1 in double precision.
+constexpr int kMaxDepth = 50;
+
+/// Bounds of the speed and the acceleration of each point of the chain, for s in [0, 1].
+struct PointBounds {
+  std::vector<double> speed;         // [m]
+  std::vector<double> acceleration;  // [m]
+};
+
+PointBounds bounds_of(const JudgeKinematics& kinematics, const Eigen::VectorXd& change) {
+  PointBounds bounds;
+  for (int point = 0; point < kinematics.points(); ++point) {
+    double speed = 0;
+    double acceleration = 0;
+    for (int j = 0; j < kinematics.joints(); ++j) {
+      speed += std::abs(change(j)) * kinematics.reach(j, point);
+      for (int k = 0; k < kinematics.joints(); ++k) {
+        acceleration +=
+            std::abs(change(j)) * std::abs(change(k)) * kinematics.reach(std::max(j, k), point);
+      }
+    }
+    bounds.speed.push_back(speed);
+    bounds.acceleration.push_back(acceleration);
+  }
+  return bounds;
+}
+
+/// One motion being bisected.
+class Bisection {
+ public:
+  Bisection(const LinkScene& scene, const Eigen::VectorXd& from, const Eigen::VectorXd& to,
+            const std::vector<LinkObstaclePair>& pairs, long limit)
+      : scene_(scene),
+        kinematics_(scene.kinematics()),
+        from_(from),
+        to_(to),
+        change_(to - from),
+        bounds_(bounds_of(kinematics_, change_)),
+        pairs_(pairs),
+        limit_(limit),
+        colliding_(pairs.size(), false),
+        undecided_(pairs.size(), false) {}
+
+  MotionVerdict run() {
+    std::vector<std::size_t> all;
+    for (std::size_t pair = 0; pair < pairs_.size(); ++pair) all.push_back(pair);
+    const bool bounded = std::all_of(bounds_.acceleration.begin(), bounds_.acceleration.end(),
+                                     [](double bound) { return std::isfinite(bound); });
+    if (bounded) {
+      bisect(0, 1, all, 0);
+    } else {
+      give_up(all);
+    }
+    for (std::size_t pair = 0; pair < pairs_.size(); ++pair) {
+      if (colliding_[pair]) {
+        verdict_.colliding.push_back(pairs_[pair]);
+      } else if (undecided_[pair]) {
+        verdict_.undecided.push_back(pairs_[pair]);
+      }
+    }
+    return verdict_;
+  }
+
+ private:
+  void give_up(const std::vector<std::size_t>& open) {
+    for (const std::size_t pair : open) undecided_[pair] = true;
+  }
+
+  void bisect(double low, double high, const std::vector<std::size_t>& open, int depth) {
+    if (depth > kMaxDepth || verdict_.visits >= limit_) return give_up(open);
+    const double middle = low + (high - low) / 2;
+    kinematics_.place(between(from_, to_, middle), positions_);
+
+    std::vector<std::size_t> rest;
+    for (const std::size_t pair : open) {
+      if (!colliding_[pair] && !settled(pair, (high - low) / 2)) rest.push_back(pair);
+    }
+    if (rest.empty()) return;
+    bisect(low, middle, rest, depth + 1);
+    bisect(middle, high, rest, depth + 1);
+  }
+
+  /// Reads the pair at the placed midpoint; whether the interval around it needs no closer look.
+  bool settled(std::size_t index, double half_width) {
+    const LinkObstaclePair& pair = pairs_[index];
+    const PairReading reading = scene_.read(positions_, pair, FclQuestion::kHit);
+    ++verdict_.visits;
+    verdict_.clearance = std::min(verdict_.clearance, reading.clearance);
+    if (!reading.contradiction.empty() && verdict_.contradiction.empty()) {
+      verdict_.contradiction = fmt::format("link {}, obstacle {}: {}", scene_.link(pair).number,
+                                           pair.obstacle, reading.contradiction);
+    }
+    if (reading.clearance < -Judge::kTouching) {
+      colliding_[index] = true;
+      return true;
+    }
+    const bool touching = reading.clearance <= Judge::kTouching;
+    verdict_.touching = verdict_.touching || touching;
+    const double least = least_clearance(reading, scene_.link(pair), half_width);
+    if (least > 0) return true;
+    return touching && (least >= -Judge::kTouching || reading.clearance - least <= kResolution);
+  }
+
+  /// Lower bound of the clearance on the interval around the midpoint.
+  double least_clearance(const PairReading& reading, const LinkSegment& link, double h) const {
+    double from_plane = std::numeric_limits<double>::infinity();
+    double speed = 0;
+    for (const int point : {link.start, link.end}) {
+      const auto at = static_cast<std::size_t>(point);
+      const Eigen::Vector3d velocity = kinematics_.velocity(positions_, change_, point);
+      const double approach =
+          h * std::abs(reading.normal.dot(velocity)) + h * h / 2 * bounds_.acceleration[at];
+      const double height = reading.normal.dot(positions_.points[at]) - reading.offset;
+      from_plane = std::min(from_plane, height - approach);
+      speed = std::max(speed, bounds_.speed[at]);
+    }
+    return std::max(from_plane - scene_.link_radius(), reading.clearance - h * speed);
+  }
+
+  const LinkScene& scene_;
+  const JudgeKinematics& kinematics_;
+  const Eigen::VectorXd& from_;
+  const Eigen::VectorXd& to_;
+  const Eigen::VectorXd change_;
+  const PointBounds bounds_;
+  const std::vector<LinkObstaclePair>& pairs_;
+  const long limit_;
+  std::vector<bool> colliding_;
+  std::vector<bool> undecided_;
+  PointPositions positions_;
+  MotionVerdict verdict_;
+};
+
+}  // namespace
+
+Eigen::VectorXd between(const Eigen::VectorXd& from, const Eigen::VectorXd& to, double s) {
+  return (1 - s) * from + s * to;
+}
+
+std::vector<double> MotionCheck::travel(const Eigen::VectorXd& from,
+                                        const Eigen::VectorXd& to) const {
+  const PointBounds bounds = bounds_of(scene_.kinematics(), to - from);
+  std::vector<double> travel;
+  for (const LinkSegment& link : scene_.kinematics().links()) {
+    travel.push_back(std::max(bounds.speed[static_cast<std::size_t>(link.start)],
+                              bounds.speed[static_cast<std::size_t>(link.end)]));
+  }
+  return travel;
+}
+
+MotionVerdict MotionCheck::follow(const Eigen::VectorXd& from, const Eigen::VectorXd& to,
+                                  const std::vector<LinkObstaclePair>& pairs, long limit) const {
+  return Bisection(scene_, from, to, pairs, limit).run();
+}
+
+}  // namespace bqsa::harness
