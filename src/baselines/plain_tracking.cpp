@@ -22,7 +22,7 @@ class PlainTracking final : public ReactiveMethod {
         (input.p_WT_desired - pose_.tip()).head(chain.dimension()) / problem_->dt;
     solve_hybrid_ik(J_, x_dot, no_weights_, no_clamping_, {}, ik_);
     output.q = input.q + problem_->dt * ik_.q_dot;
-    output.state = TickState::kFree;
+    output.state = TickState::kUnclaimed;
     ++counters_.kinematics;
     ++counters_.jacobians;
     ++counters_.linear_solves;

@@ -6,8 +6,8 @@
 
 namespace bqsa::baselines {
 
-/// `none`: the hybrid inverse kinematics with W = I and phi = 0, closed over the tip error. It never
-/// looks at the obstacles.
+/// `none`: the hybrid inverse kinematics with W = I and phi = 0, closed over the tip error. It
+/// never looks at the obstacles.
 MethodEntry plain_tracking_method();
 
 }  // namespace bqsa::baselines

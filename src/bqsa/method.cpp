@@ -36,6 +36,8 @@ const char* name_of(TickState state) {
       return "free";
     case TickState::kClamped:
       return "clamped";
+    case TickState::kUnclaimed:
+      return "unclaimed";
     case TickState::kInfeasible:
       return "infeasible";
   }

@@ -1,12 +1,17 @@
 #include "harness/methods.hpp"
 
 #include "baselines/plain_tracking.hpp"
+#include "baselines/test_point.hpp"
+#include "bqsa/bqsa_methods.hpp"
 
 namespace bqsa::harness {
 
 const std::vector<MethodEntry>& methods() {
   static const std::vector<MethodEntry> list = {
       baselines::plain_tracking_method(),
+      bqsa_method(),
+      bqsa_paper_method(),
+      baselines::test_point_method(),
   };
   return list;
 }
