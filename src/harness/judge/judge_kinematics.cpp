@@ -1,5 +1,6 @@
 #include "harness/judge/judge_kinematics.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 namespace bqsa::harness {
