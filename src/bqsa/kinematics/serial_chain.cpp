@@ -32,6 +32,12 @@ void validate(const ChainDescription& chain) {
     throw std::invalid_argument(
         "serial chain: the base orientation must be orthonormal and right-handed");
   }
+  bool in_plane =
+      chain.R_WB.col(2) == Eigen::Vector3d::UnitZ() && chain.p_WB.z() == 0 && chain.p_LT.z() == 0;
+  for (const DhRow& row : chain.rows) in_plane = in_plane && row.alpha == 0 && row.d == 0;
+  if (chain.dimension == 2 && !in_plane) {
+    throw std::invalid_argument("serial chain: an arm of dimension 2 must lie in the plane z = 0");
+  }
 }
 
 }  // namespace

@@ -46,8 +46,10 @@ struct ChainPose {
 /// A chain of up to 16 revolute joints. Immutable.
 class SerialChain {
  public:
-  /// @throws std::invalid_argument if there are no joints, more than 16, the dimension is neither 2
-  ///         nor 3, a number is not finite, or the base orientation is no rotation
+  /// @throws std::invalid_argument if there are no joints, more than 16, a number is not finite,
+  /// the
+  ///         base orientation is no rotation, the dimension is neither 2 nor 3, or an arm of
+  ///         dimension 2 leaves the plane z = 0
   explicit SerialChain(ChainDescription description);
 
   const ChainDescription& description() const { return description_; }
