@@ -19,13 +19,14 @@ using Eigen::Vector3d;
 constexpr double kMillimetres = 1000;        // FCL's tolerances are absolute and suit millimetres
 constexpr double kDistanceTolerance = 1e-9;  // of FCL's own GJK, in the units above
 
-/// The pose of a capsule, whose axis is z, on the segment from a to b.
+/// The pose of a capsule, whose axis is z, on the segment from a to b. A capsule has no direction,
+/// and the turn from z is well conditioned only for a direction in the upper half space.
 fcl::Transform3d capsule_pose(const Vector3d& a, const Vector3d& b) {
   fcl::Transform3d X = fcl::Transform3d::Identity();
   const Vector3d d = b - a;
   const double length = d.norm();
   if (length > 0) {
-    const Vector3d axis = d / length;
+    const Vector3d axis = (d.z() < 0 ? -1 : 1) / length * d;
     X.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), axis).toRotationMatrix();
   }
   X.translation() = a + 0.5 * d;

@@ -20,10 +20,10 @@ enum class Failure {
   kIncomplete,    ///< rows missing (a method that stopped) or too many, or wrong times or width
   kWrongStart,    ///< row 0 is not the problem's start
   kCollision,     ///< a link in an obstacle, at or between ticks
-  kUndecided,   ///< freedom between two ticks could not be proven within the limit on subdivisions
-  kJump,        ///< a joint step beyond the velocity limit (default 15 degrees a tick)
-  kJointLimit,  ///< a joint beyond its limits
-  kDrift,       ///< tip error at a tick beyond the scenario's tolerance
+  kUndecided,     ///< freedom between ticks could not be proven within the limit on subdivisions
+  kJump,          ///< a joint step beyond the velocity limit (default 15 degrees a tick)
+  kJointLimit,    ///< a joint beyond its limits
+  kDrift,         ///< tip error at a tick beyond the scenario's tolerance
 };
 
 /// A link in an obstacle. Names as in the paper: (6, obstacle).
@@ -52,9 +52,8 @@ struct Judgement {
   std::vector<Contact> contacts;  ///< link-obstacle pairs in collision, by first tick
   std::string disagreement;       ///< where and by how much FCL and the exact distance differ
 
-  bool touching = false;  ///< came within 1e-3 mm of contact: free, flagged
-  double clearance_at_ticks =
-      0;                 ///< smallest distance of a link (with its radius) to an obstacle [m]
+  bool touching = false;          ///< came within 1e-3 mm of contact: free, flagged
+  double clearance_at_ticks = 0;  ///< smallest of a link, with its radius, to an obstacle [m]
   double clearance = 0;  ///< the same at ticks and at all configurations visited in between [m]
 
   TipError at_ticks;          ///< counted from tick 1

@@ -30,12 +30,14 @@ std::string contradiction(double exact_clearance, bool fcl_hit) {
   return {};
 }
 
-std::string contradiction(double exact_clearance, const FclAnswer& fcl) {
+std::string contradiction(double exact_clearance, const FclAnswer& fcl, double size) {
   const std::string verdict = contradiction(exact_clearance, fcl.hit);
   if (!verdict.empty() || fcl.hit) return verdict;
   // FCL marks contact by a negative distance, and the exact depth has no counterpart in FCL.
-  const double difference = std::abs(std::max(fcl.distance, 0.0) - std::max(exact_clearance, 0.0));
-  if (std::isfinite(fcl.distance) && difference <= kFclTolerance) return {};
+  const double distance = std::max(exact_clearance, 0.0);
+  const double difference = std::abs(std::max(fcl.distance, 0.0) - distance);
+  const double tolerance = kFclTolerance + kFclRelativeTolerance * (size + distance);
+  if (std::isfinite(fcl.distance) && difference <= tolerance) return {};
   return fmt::format("FCL clearance {:.9e} m, exact clearance {:.9e} m", fcl.distance,
                      exact_clearance);
 }
@@ -72,7 +74,8 @@ PairReading LinkScene::read(const PointPositions& positions, const LinkObstacleP
     reading.contradiction = contradiction(reading.clearance, hit);
   } else {
     const double distance = fcl_.distance(start, end, pair.obstacle);
-    reading.contradiction = contradiction(reading.clearance, FclAnswer{hit, distance});
+    reading.contradiction =
+        contradiction(reading.clearance, FclAnswer{hit, distance}, (end - start).norm());
   }
   return reading;
 }
