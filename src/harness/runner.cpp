@@ -94,6 +94,22 @@ void summarize(const std::vector<double>& step_s, RunTimes& times) {
   times.warm_p99_s = warm[static_cast<std::size_t>(rank) - 1];
 }
 
+void count(TickState state, RunOutcome& outcome) {
+  switch (state) {
+    case TickState::kFree:
+      ++outcome.free_ticks;
+      break;
+    case TickState::kClamped:
+      ++outcome.clamped_ticks;
+      break;
+    case TickState::kUnclaimed:
+      ++outcome.unclaimed_ticks;
+      break;
+    case TickState::kInfeasible:
+      break;
+  }
+}
+
 /// The control loop; `outcome.tick` is the tick in progress.
 void follow(ReactiveMethod& method, const Problem& problem, RunOutcome& outcome,
             std::vector<double>& step_s, PairTally& tally) {
@@ -129,7 +145,7 @@ void follow(ReactiveMethod& method, const Problem& problem, RunOutcome& outcome,
       outcome.claim = Claim::kCrashed;
       return;
     }
-    ++(output.state == TickState::kFree ? outcome.free_ticks : outcome.clamped_ticks);
+    count(output.state, outcome);
     if (output.guard_fired) ++outcome.guard_fired;
     for (int i = 0; i < output.clamp_count; ++i) {
       const Clamp& clamp = output.clamps[static_cast<std::size_t>(i)];
@@ -139,6 +155,7 @@ void follow(ReactiveMethod& method, const Problem& problem, RunOutcome& outcome,
     }
   }
   outcome.tick = 0;
+  outcome.claim = outcome.unclaimed_ticks > 0 ? Claim::kNothing : Claim::kSuccess;
 }
 
 void make_and_run(const Problem& problem, const MethodEntry& entry,
@@ -204,10 +221,16 @@ RunOutcome run_method(const Problem& problem, const MethodEntry& entry,
   return outcome;
 }
 
+bool claim_holds(Claim claim, bool judged_success) {
+  return claim == Claim::kNothing || (claim == Claim::kSuccess) == judged_success;
+}
+
 const char* name_of(Claim claim) {
   switch (claim) {
     case Claim::kSuccess:
       return "success";
+    case Claim::kNothing:
+      return "nothing";
     case Claim::kInfeasible:
       return "infeasible";
     case Claim::kUnsolved:

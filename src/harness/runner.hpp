@@ -13,6 +13,7 @@ namespace bqsa::harness {
 /// What the method itself says of its run.
 enum class Claim {
   kSuccess,     ///< every tick free or clamped, or a plan claimed as solved
+  kNothing,     ///< went to the end, with ticks whose motion it does not claim to be free
   kInfeasible,  ///< a reactive method gave up at a tick
   kUnsolved,    ///< a planning method found no plan
   kCrashed,     ///< an exception, or an answer that cannot be used
@@ -56,6 +57,7 @@ struct RunOutcome {
 
   int free_ticks = 0;
   int clamped_ticks = 0;
+  int unclaimed_ticks = 0;
   int guard_fired = 0;                     ///< ticks in which the paper variant fell back
   std::vector<ClampedPair> clamped_pairs;  ///< by link, then obstacle
   std::int64_t increments_total = 0;       ///< clamping increments of all ticks
@@ -74,6 +76,9 @@ struct RunOutcome {
 /// method end up in the outcome.
 RunOutcome run_method(const Problem& problem, const MethodEntry& method,
                       const ParameterValues& parameters, const RunSettings& settings = {});
+
+/// Whether the claim and the verdict agree; a method that claims nothing is never wrong.
+bool claim_holds(Claim claim, bool judged_success);
 
 const char* name_of(Claim claim);
 

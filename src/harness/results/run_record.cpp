@@ -75,6 +75,7 @@ Json ticks_json(const Problem& problem, const RunOutcome& outcome) {
   }
   return {{"free", outcome.free_ticks},
           {"clamped", outcome.clamped_ticks},
+          {"unclaimed", outcome.unclaimed_ticks},
           {"clamped_pairs", pairs},
           {"increments_total", outcome.increments_total},
           {"increments_max", outcome.increments_max},
@@ -190,7 +191,7 @@ std::string run_record(const Scenario& scenario, const MethodSpec& method,
   Json record = head_json(scenario, method);
   record["claimed"] = claimed_json(scenario.problem, outcome);
   record["judged"] = judged_json(scenario.problem, judgement);
-  record["claim_holds"] = (outcome.claim == Claim::kSuccess) == success;
+  record["claim_holds"] = claim_holds(outcome.claim, success);
   record["ticks"] = ticks_json(scenario.problem, outcome);
   record["counters"] = counters_json(outcome.counters);
   record["times"] = times_json(outcome.times, success, machine);

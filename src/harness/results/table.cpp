@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "harness/judge/judge.hpp"
+#include "harness/runner.hpp"
 
 namespace bqsa::harness {
 namespace {
@@ -21,10 +22,12 @@ constexpr std::string_view kLegend =
 Success, decided from the joint trajectory alone: every row present and finite, from the given start; no link in an
 obstacle at or between ticks; largest tip error at ticks within the tolerance; joint limits and velocity limit (default
 15 deg a tick) kept. Self-collision is not judged.
-tip error   largest distance from the desired path, at ticks and on the straight joint motions between them
+error       largest distance of the tip from x_d(t), at ticks and on the straight joint motions between them, of which
+            the first leads from the start onto the path
 clearance   smallest distance of a link to an obstacle, at or between ticks; negative inside; T: touching, within 0.001 mm
 max step    largest step of one joint in one tick
-time        of one control tick after the first, wall clock, median and 99th percentile; only for successes
+time        wall clock of a tick, the first left out; only for successes
+claimed     what the method says of its run; nothing: it does not claim that all its motions are free
 (6, name)   link 6, counted from the base, and the obstacle of that name; x 12: cleared by the method in 12 ticks
 )";
 
@@ -47,14 +50,19 @@ std::string verdict_of(const std::string& failure) {
   return failure;
 }
 
-bool claims_success(const TableRow& row) { return row.claim == "success"; }
+bool claims_success(const TableRow& row) { return row.claim == name_of(Claim::kSuccess); }
+
+/// The method ended the run itself, or broke.
+bool gave_up(const TableRow& row) {
+  return !claims_success(row) && row.claim != name_of(Claim::kNothing);
+}
 
 /// All that went wrong, the most telling first. A run that its method ended is not called
 /// incomplete.
 std::vector<std::string> verdicts(const TableRow& row) {
   std::vector<std::string> list;
   for (const std::string& failure : row.failures) {
-    const bool ended = failure == name_of(Failure::kIncomplete) && !claims_success(row);
+    const bool ended = failure == name_of(Failure::kIncomplete) && gave_up(row);
     list.push_back(ended ? row.claim : verdict_of(failure));
   }
   return list;
@@ -89,11 +97,11 @@ struct Column {
 constexpr std::array<Column, 8> kColumns{{
     {"method", "", true},
     {"judged", "", true},
-    {"tip error", "at ticks mm"},
-    {"tip error", "between mm"},
-    {"clearance", "mm"},
-    {"max step", "deg"},
-    {"time per tick, us", "median      p99"},
+    {"error [mm]", "at ticks"},
+    {"error [mm]", "between"},
+    {"clearance", "[mm]"},
+    {"max step", "[deg]"},
+    {"time per tick [us]", "median      p99"},
     {"claimed", "", true},
 }};
 
@@ -111,7 +119,7 @@ Cells cells_of(const TableRow& row) {
           clearance,
           moved ? degrees(row.max_joint_step_rad) : "-",
           time_cell(row),
-          claims_success(row) ? "success" : row.claim.substr(0, row.claim.find(' '))};
+          row.claim.substr(0, row.claim.find(' '))};
 }
 
 char mark_of(const TableRow& row) {
@@ -147,7 +155,7 @@ std::string notes_of(const TableRow& row) {
   const std::vector<std::string> wrong = verdicts(row);
   if (wrong.size() > 1) text += note("also:", {wrong.begin() + 1, wrong.end()});
   if (!row.disagreement.empty()) text += note("judges:", {row.disagreement});
-  if (!claims_success(row)) {
+  if (gave_up(row)) {
     text += note(fmt::format("{}: {}", row.claim, row.claim_detail), {});
   }
   if (!row.success && row.rows < row.ticks + 1) {
@@ -223,13 +231,17 @@ std::string render_table(const std::vector<TableRow>& all_rows) {
   for (const std::string& scenario :
        distinct(rows, [](const TableRow& row) { return row.scenario; })) {
     std::string problem;
+    std::string start;
     std::string block;
     for (const TableRow& row : rows) {
       if (row.scenario != scenario) continue;
       problem = row.problem;
+      if (std::isfinite(row.start_error_m)) {
+        start = fmt::format(", start {} mm off the path", millimetres(row.start_error_m));
+      }
       block += line_of(mark_of(row), cells_of(row), widths) + notes_of(row);
     }
-    text += fmt::format("{}: {}\n", scenario, problem);
+    text += fmt::format("{}: {}{}\n", scenario, problem, start);
     text += line_of(' ', heads, widths) + line_of(' ', units, widths) + block + '\n';
   }
   text += kLegend;

@@ -20,12 +20,18 @@ std::string pair_text(const Json& pair) {
                      pair.at("obstacle").get<std::string>());
 }
 
+std::string counted(std::size_t count, const char* thing) {
+  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
+
 std::string problem_text(const Json& problem) {
-  std::string text = fmt::format(
-      "{} joints, {} links, {} obstacles, {} ticks of {:.4g} ms, tolerance {:.4g} mm",
-      problem.at("joints").get<int>(), problem.at("links").get<int>(),
-      problem.at("obstacles").size(), problem.at("ticks").get<int>(),
-      1e3 * problem.at("dt_s").get<double>(), 1e3 * problem.at("tolerance_m").get<double>());
+  std::string text = fmt::format("{}, {}, {}, {} of {:.4g} ms, tolerance {:.4g} mm",
+                                 counted(problem.at("joints").get<std::size_t>(), "joint"),
+                                 counted(problem.at("links").get<std::size_t>(), "link"),
+                                 counted(problem.at("obstacles").size(), "obstacle"),
+                                 counted(problem.at("ticks").get<std::size_t>(), "tick"),
+                                 1e3 * problem.at("dt_s").get<double>(),
+                                 1e3 * problem.at("tolerance_m").get<double>());
   const double margin = problem.at("margin_m").get<double>();
   const double radius = problem.at("link_radius_m").get<double>();
   if (margin > 0) text += fmt::format(", margin {:.4g} mm", 1e3 * margin);
@@ -78,6 +84,7 @@ void read_judgement(const Json& judged, TableRow& row) {
   for (const Json& contact : judged.at("contacts")) row.collided.push_back(pair_text(contact));
   row.tip_error_at_ticks_m = number(judged.at("tip_error_at_ticks").at("max_m"));
   row.tip_error_between_ticks_m = number(judged.at("tip_error_between_ticks").at("max_m"));
+  row.start_error_m = number(judged.at("start_error_m"));
   row.clearance_m = number(judged.at("clearance_m"));
   row.touching = judged.at("touching").get<bool>();
   row.max_joint_step_rad = number(judged.at("max_joint_step_rad"));

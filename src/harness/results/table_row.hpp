@@ -34,6 +34,7 @@ struct TableRow {
   std::vector<std::string> collided;  ///< `(6, obstacle)`
   std::vector<std::string> clamped;   ///< `(6, obstacle) x 123`, the number being ticks
   int guard_fired = 0;
+  double start_error_m = kNone;  ///< of the tip
   double tip_error_at_ticks_m = kNone;
   double tip_error_between_ticks_m = kNone;
   double clearance_m = kNone;
