@@ -29,10 +29,11 @@ struct FclAnswer {
 /// Why the two checkers contradict each other; empty if they do not.
 ///
 /// A hit against a miss is a contradiction where the exact clearance is further from contact than
-/// the touching band; two distances may differ by kFclTolerance. Numbers that are not finite
+/// the touching band; two distances may differ by FCL's tolerance. Numbers that are not finite
 /// contradict.
 /// @param exact_clearance  [m], negative for the depth of a penetration
-std::string contradiction(double exact_clearance, const FclAnswer& fcl);
+/// @param size             of the link [m]
+std::string contradiction(double exact_clearance, const FclAnswer& fcl, double size);
 
 /// The same where FCL was asked for its verdict alone.
 std::string contradiction(double exact_clearance, bool fcl_hit);
