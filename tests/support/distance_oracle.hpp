@@ -9,7 +9,7 @@
 
 #include "bqsa/geometry/ellipsoid.hpp"
 
-namespace bqsa::testing {
+namespace bqsa::test_support {
 
 using LongVector3 = Eigen::Matrix<long double, 3, 1>;
 
@@ -86,4 +86,4 @@ class DistanceOracle {
   LongVector3 semi_axes_, p_, d_;
 };
 
-}  // namespace bqsa::testing
+}  // namespace bqsa::test_support

@@ -1,0 +1,363 @@
+#include "harness/judge/judge.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "judge_scenes.hpp"
+
+namespace bqsa::harness {
+namespace {
+
+using Eigen::Vector3d;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kDegree = std::numbers::pi / 180;
+
+/// A planar arm of three links of 0.4 m that turns by a degree a tick about its base; the desired
+/// path is where its tip goes, turned aside by `drift` metres.
+class TurningArm {
+ public:
+  TurningArm() : problem(test_support::free_problem(planar_chain({0.4, 0.4, 0.4}), 20)) {
+    problem.start << 0.2, 0.3, 0.4;
+    problem.tolerance = 1e-3;
+    follow_path(0);
+    JointVector step(3);
+    step << kDegree, 0, 0;
+    trajectory = test_support::steady_motion(problem, step);
+  }
+
+  void follow_path(double drift) {
+    problem.desired_tip = [drift, dt = problem.dt](double t) {
+      return Vector3d(tip(t / dt) + Vector3d(0, 0, drift));
+    };
+  }
+
+  /// Tip at a time in ticks, in closed form.
+  static Vector3d tip(double tick) {
+    const double q = 0.2 + tick * kDegree;
+    return {0.4 * (std::cos(q) + std::cos(q + 0.3) + std::cos(q + 0.7)),
+            0.4 * (std::sin(q) + std::sin(q + 0.3) + std::sin(q + 0.7)), 0};
+  }
+
+  void add_ball(const Vector3d& center, double radius) {
+    problem.obstacles.push_back({"ball", Ellipsoid(center, Vector3d::Constant(radius))});
+  }
+
+  Judgement judge() const { return Judge(problem).judge(trajectory); }
+
+  Problem problem;
+  Trajectory trajectory;
+};
+
+TEST(Judge, ATrackedFreeRunSucceeds) {
+  TurningArm run;
+  run.add_ball({-1, 0, 0}, 0.3);
+  const Judgement judgement = run.judge();
+  EXPECT_TRUE(judgement.success());
+  EXPECT_EQ(judgement.rows, 21);
+  EXPECT_FALSE(judgement.touching);
+  EXPECT_THAT(judgement.contacts, IsEmpty());
+  EXPECT_LT(judgement.at_ticks.max, 1e-12);
+  EXPECT_LT(judgement.start_error, 1e-12);
+  EXPECT_NEAR(judgement.clearance_at_ticks, 0.7, 1e-12);  // of the base
+  EXPECT_NEAR(judgement.max_joint_step, kDegree, 1e-12);
+  EXPECT_EQ(judgement.disagreement, "");
+}
+
+TEST(Judge, WithoutObstaclesTheClearanceIsInfinite) {
+  const Judgement judgement = TurningArm().judge();
+  EXPECT_TRUE(judgement.success());
+  EXPECT_EQ(judgement.clearance, kInfinity);
+  EXPECT_EQ(judgement.clearance_at_ticks, kInfinity);
+}
+
+TEST(Judge, StandingStillIsFreeButDrifts) {
+  TurningArm run;
+  run.add_ball({-1, 0, 0}, 0.3);
+  for (JointVector& q : run.trajectory.q) q = run.problem.start;
+  const Judgement judgement = run.judge();
+  EXPECT_THAT(judgement.failures, ElementsAre(Failure::kDrift));
+  EXPECT_EQ(judgement.max_joint_step, 0);
+  EXPECT_EQ(judgement.at_ticks.max_tick, 20);
+}
+
+TEST(Judge, DriftCountsFromTheToleranceOn) {
+  TurningArm run;
+  run.follow_path(1e-3 * (1 + 1e-9));
+  const Judgement beyond = run.judge();
+  EXPECT_THAT(beyond.failures, ElementsAre(Failure::kDrift));
+  EXPECT_NEAR(beyond.at_ticks.max, 1e-3, 1e-9);
+  EXPECT_NEAR(beyond.at_ticks.mean, 1e-3, 1e-9);
+  EXPECT_NEAR(beyond.at_ticks.rms, 1e-3, 1e-9);
+  EXPECT_NEAR(beyond.at_ticks.max_per_axis.z(), 1e-3, 1e-9);
+  EXPECT_NEAR(beyond.at_ticks.max_per_axis.x(), 0, 1e-12);
+  run.follow_path(1e-3 * (1 - 1e-9));
+  EXPECT_TRUE(run.judge().success());
+}
+
+TEST(Judge, DriftAtTheLastTickAloneCounts) {
+  TurningArm run;
+  run.trajectory.q.back()(2) += 0.01;
+  const Judgement judgement = run.judge();
+  EXPECT_THAT(judgement.failures, ElementsAre(Failure::kDrift));
+  EXPECT_EQ(judgement.at_ticks.max_tick, 20);
+}
+
+TEST(Judge, ErrorsOfTheStartAndBetweenTicksAreReportedButNoFailure) {
+  TurningArm run;
+  run.problem.desired_tip = [](double t) {
+    const double tick = t / 0.01;
+    const bool at_tick = std::abs(tick - std::round(tick)) < 1e-6;
+    return Vector3d(TurningArm::tip(tick) + Vector3d(0, at_tick && tick > 0.5 ? 0 : 0.01, 0));
+  };
+  const Judgement judgement = run.judge();
+  EXPECT_TRUE(judgement.success());
+  EXPECT_NEAR(judgement.start_error, 0.01, 1e-12);
+  EXPECT_NEAR(judgement.between_ticks.max, 0.01, 1e-12);
+  EXPECT_NEAR(judgement.between_ticks.mean, 0.01, 1e-12);
+  EXPECT_LT(judgement.at_ticks.max, 1e-12);
+}
+
+TEST(Judge, ALinkInAnObstacleIsNamed) {
+  TurningArm run;
+  run.add_ball({-1, 0, 0}, 0.3);
+  run.add_ball(TurningArm::tip(10), 0.005);
+  const Judgement judgement = run.judge();
+  EXPECT_THAT(judgement.failures, ElementsAre(Failure::kCollision));
+  ASSERT_EQ(judgement.contacts.size(), 1U);
+  const Contact& contact = judgement.contacts[0];
+  EXPECT_EQ(contact.link, 3);
+  EXPECT_EQ(contact.obstacle, 1);
+  EXPECT_TRUE(contact.at_tick);
+  // The tip, 1.15 m from the base, moves by 20 mm a tick: the ball is hit at tick 10 alone.
+  EXPECT_EQ(contact.ticks, 1);
+  EXPECT_EQ(contact.first_tick, 10);
+  EXPECT_LT(judgement.clearance, 0);
+}
+
+TEST(Judge, ALinkWhollyInsideAnObstacleCollides) {
+  TurningArm run;
+  run.add_ball({0, 0, 0}, 5);
+  const Judgement judgement = run.judge();
+  EXPECT_THAT(judgement.failures, ElementsAre(Failure::kCollision));
+  ASSERT_EQ(judgement.contacts.size(), 3U);
+  for (const Contact& contact : judgement.contacts) EXPECT_EQ(contact.ticks, 21);
+}
+
+TEST(Judge, CatchesAMotionThatTunnelsThroughASheet) {
+  TurningArm run;
+  JointVector step(3);
+  step << 14 * kDegree, 0, 0;
+  run.trajectory = test_support::steady_motion(run.problem, step);
+  run.problem.tolerance = kInfinity;
+  // A sheet 0.2 mm thick across the path of the tip, halfway between ticks 2 and 3.
+  const double reach = TurningArm::tip(0).norm();
+  const Vector3d tip =
+      Eigen::AngleAxisd(2.5 * 14 * kDegree, Vector3d::UnitZ()) * TurningArm::tip(0);
+  const Eigen::AngleAxisd outward(std::atan2(tip.y(), tip.x()), Vector3d::UnitZ());
+  run.problem.obstacles.push_back(
+      {"sheet",
+       Ellipsoid(tip * (reach + 0.04) / reach, {0.05, 1e-4, 10}, outward.toRotationMatrix())});
+  const Judgement judgement = run.judge();
+  EXPECT_THAT(judgement.failures, ElementsAre(Failure::kCollision));
+  ASSERT_EQ(judgement.contacts.size(), 1U);
+  EXPECT_FALSE(judgement.contacts[0].at_tick);
+  EXPECT_EQ(judgement.contacts[0].ticks, 0);
+  EXPECT_EQ(judgement.contacts[0].first_tick, 3);
+  EXPECT_GT(judgement.clearance_at_ticks, 0.05);
+  EXPECT_LT(judgement.clearance, 0);
+}
+
+TEST(Judge, TouchingIsFreeAndFlagged) {
+  const double edge = TurningArm::tip(20).norm() + 0.1;
+  for (const double gap : {0.5e-6, 0.0, -0.5e-6}) {
+    TurningArm run;
+    run.add_ball(TurningArm::tip(20).normalized() * (edge + gap), 0.1);
+    const Judgement judgement = run.judge();
+    EXPECT_THAT(judgement.failures, IsEmpty()) << gap;
+    EXPECT_TRUE(judgement.touching) << gap;
+    EXPECT_NEAR(judgement.clearance_at_ticks, gap, 1e-9);
+  }
+  TurningArm apart;
+  apart.add_ball(TurningArm::tip(20).normalized() * (edge + 2e-6), 0.1);
+  EXPECT_TRUE(apart.judge().success());
+  EXPECT_FALSE(apart.judge().touching);
+  TurningArm deep;
+  deep.add_ball(TurningArm::tip(20).normalized() * (edge - 2e-6), 0.1);
+  EXPECT_THAT(deep.judge().failures, ElementsAre(Failure::kCollision));
+}
+
+TEST(Judge, LinkRadiusCountsAsMuchAsTheObstacle) {
+  for (const double gap : {2e-6, -2e-6}) {
+    TurningArm run;
+    run.problem.link_radius = 0.03;
+    run.add_ball(TurningArm::tip(20).normalized() * (TurningArm::tip(20).norm() + 0.13 + gap), 0.1);
+    const Judgement judgement = run.judge();
+    EXPECT_EQ(judgement.success(), gap > 0);
+    EXPECT_NEAR(judgement.clearance_at_ticks, gap, 1e-9);
+  }
+}
+
+TEST(Judge, JumpsCountFromTheLargestStepOn) {
+  for (const double excess : {-1e-6, 1e-6}) {
+    TurningArm run;
+    run.problem.tolerance = kInfinity;
+    run.trajectory.q[10](1) += kDefaultMaxStep * (1 + excess);
+    for (std::size_t k = 11; k < 21; ++k) run.trajectory.q[k](1) = run.trajectory.q[10](1);
+    const Judgement judgement = run.judge();
+    EXPECT_EQ(judgement.success(), excess < 0);
+    EXPECT_EQ(judgement.max_joint_step_tick, 10);
+    if (excess > 0) {
+      EXPECT_THAT(judgement.failures, ElementsAre(Failure::kJump));
+    }
+  }
+}
+
+TEST(Judge, AVelocityLimitReplacesTheDefaultStep) {
+  TurningArm run;
+  run.problem.limits.max_velocity = JointVector::Constant(3, 0.99 * kDegree / run.problem.dt);
+  EXPECT_THAT(run.judge().failures, ElementsAre(Failure::kJump));
+  run.problem.limits.max_velocity.setConstant(kDegree / run.problem.dt);
+  EXPECT_TRUE(run.judge().success());
+}
+
+TEST(Judge, AFullTurnIsAJumpThoughThePoseIsTheSame) {
+  TurningArm run;
+  for (std::size_t k = 10; k < 21; ++k) run.trajectory.q[k](2) += 2 * std::numbers::pi;
+  const Judgement judgement = run.judge();
+  EXPECT_THAT(judgement.failures, ElementsAre(Failure::kJump));
+  EXPECT_NEAR(judgement.max_joint_step, 2 * std::numbers::pi, 1e-9);
+}
+
+TEST(Judge, AStartThatDiffersByAFullTurnIsWrong) {
+  TurningArm run;
+  for (JointVector& q : run.trajectory.q) q(0) += 2 * std::numbers::pi;
+  EXPECT_THAT(run.judge().failures, ElementsAre(Failure::kWrongStart));
+}
+
+TEST(Judge, TheStartMayDifferByRoundingAlone) {
+  TurningArm run;
+  run.trajectory.q[0](1) += 0.9e-9;
+  EXPECT_TRUE(run.judge().success());
+  run.trajectory.q[0](1) += 0.2e-9;
+  EXPECT_THAT(run.judge().failures, ElementsAre(Failure::kWrongStart));
+}
+
+TEST(Judge, JointLimitsAreKept) {
+  for (const double sign : {1.0, -1.0}) {
+    TurningArm run;
+    run.problem.limits.lower = JointVector::Constant(3, -10);
+    run.problem.limits.upper = JointVector::Constant(3, 10);
+    run.problem.limits.upper(0) = run.trajectory.q.back()(0) + sign * 1e-6;
+    EXPECT_EQ(run.judge().success(), sign > 0);
+    run.problem.limits.upper(0) = 10;
+    run.problem.limits.lower(1) = 0.3 - sign * 1e-6;
+    EXPECT_EQ(run.judge().success(), sign > 0);
+    if (sign < 0) {
+      EXPECT_THAT(run.judge().failures, ElementsAre(Failure::kJointLimit));
+    }
+  }
+}
+
+TEST(Judge, AnEmptyTrajectoryIsIncomplete) {
+  TurningArm run;
+  run.add_ball({0, 0, 0}, 5);
+  run.trajectory = {};
+  const Judgement judgement = run.judge();
+  EXPECT_THAT(judgement.failures, ElementsAre(Failure::kIncomplete));
+  EXPECT_EQ(judgement.rows, 0);
+}
+
+TEST(Judge, ARunThatStopsIsIncompleteAndItsRowsAreJudged) {
+  TurningArm run;
+  run.add_ball(TurningArm::tip(10), 0.02);
+  run.trajectory.t.resize(13);
+  run.trajectory.q.resize(13);
+  const Judgement judgement = run.judge();
+  EXPECT_THAT(judgement.failures, ElementsAre(Failure::kIncomplete, Failure::kCollision));
+  EXPECT_EQ(judgement.rows, 13);
+}
+
+TEST(Judge, TooManyRowsAreIncomplete) {
+  TurningArm run;
+  run.trajectory.t.push_back(run.problem.time(21));
+  run.trajectory.q.push_back(run.trajectory.q.back());
+  EXPECT_THAT(run.judge().failures, ElementsAre(Failure::kIncomplete));
+}
+
+TEST(Judge, TimesAndRowsMustBeAsMany) {
+  TurningArm fewer;
+  fewer.trajectory.t.pop_back();
+  EXPECT_THAT(fewer.judge().failures, ElementsAre(Failure::kIncomplete));
+  TurningArm more;
+  more.trajectory.t.push_back(1);
+  EXPECT_THAT(more.judge().failures, ElementsAre(Failure::kIncomplete));
+}
+
+TEST(Judge, TimesMustBeThoseOfTheTicks) {
+  TurningArm run;
+  run.trajectory.t[7] *= 1 + 1e-6;
+  EXPECT_THAT(run.judge().failures, ElementsAre(Failure::kIncomplete));
+  run.trajectory.t[7] = run.problem.time(7) * (1 + 1e-12);
+  EXPECT_TRUE(run.judge().success());
+}
+
+TEST(Judge, ARowOfTheWrongWidthEndsTheRun) {
+  for (const int width : {0, 2, 4}) {
+    TurningArm run;
+    run.trajectory.q[8] = JointVector::Zero(width);
+    const Judgement judgement = run.judge();
+    EXPECT_THAT(judgement.failures, ElementsAre(Failure::kIncomplete)) << width;
+    EXPECT_EQ(judgement.rows, 8) << width;
+  }
+}
+
+TEST(Judge, NumbersThatAreNotFiniteEndTheRunAndThePrefixIsJudged) {
+  for (const double bad : {kNaN, kInfinity, -kInfinity}) {
+    TurningArm joint;
+    joint.add_ball(TurningArm::tip(10), 0.02);
+    joint.trajectory.q[12](1) = bad;
+    EXPECT_THAT(joint.judge().failures, ElementsAre(Failure::kNotFinite, Failure::kCollision));
+    EXPECT_EQ(joint.judge().rows, 12);
+    TurningArm time;
+    time.trajectory.t[3] = bad;
+    EXPECT_THAT(time.judge().failures, ElementsAre(Failure::kNotFinite));
+    TurningArm first;
+    first.trajectory.q[0](0) = bad;
+    EXPECT_THAT(first.judge().failures, ElementsAre(Failure::kNotFinite));
+    EXPECT_EQ(first.judge().rows, 0);
+  }
+}
+
+TEST(Judge, HugeJumpsEndUndecidedInsteadOfStalling) {
+  for (const double jump : {1e9, 1e300, std::numeric_limits<double>::max()}) {
+    TurningArm run;
+    run.problem.tolerance = kInfinity;
+    run.add_ball({2, 0, 0}, 2 - TurningArm::tip(0).norm() - 0.01);
+    for (std::size_t k = 1; k < 21; ++k) run.trajectory.q[k](0) = k % 2 == 0 ? jump : -jump;
+    const Judgement judgement = run.judge();
+    EXPECT_THAT(judgement.failures, Contains(Failure::kUndecided)) << jump;
+    EXPECT_THAT(judgement.failures, Contains(Failure::kJump)) << jump;
+    EXPECT_THAT(judgement.failures, Not(Contains(Failure::kCollision))) << jump;
+  }
+}
+
+TEST(Judge, EveryFailureHasAName) {
+  for (const Failure failure : {Failure::kDisagreement, Failure::kNotFinite, Failure::kIncomplete,
+                                Failure::kWrongStart, Failure::kCollision, Failure::kUndecided,
+                                Failure::kJump, Failure::kJointLimit, Failure::kDrift}) {
+    EXPECT_STRNE(name_of(failure), "unknown");
+  }
+}
+
+}  // namespace
+}  // namespace bqsa::harness
