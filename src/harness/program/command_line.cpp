@@ -122,7 +122,11 @@ int run_program(int argc, const char* const* argv, const Console& console) {
     } catch (const CLI::ParseError& error) {
       const bool asked_for = error.get_exit_code() == 0;  // --help, --version
       if (asked_for) return app.exit(error, console.out, console.err);
-      console.error(std::string(error.what()) + " (see --help)");
+      const std::vector<std::string> unknown = app.remaining();
+      const bool no_command = app.get_subcommands().empty() && !unknown.empty();
+      console.error(
+          no_command ? fmt::format("unknown command or option '{}' (see --help)", unknown.front())
+                     : fmt::format("{} (see --help)", error.what()));
       return kBadInput;
     }
     return line.command(console);

@@ -24,7 +24,7 @@ obstacle at or between ticks; largest tip error at ticks within the tolerance; j
 15 deg a tick) kept. Self-collision is not judged.
 error       largest distance of the tip from x_d(t), at ticks and on the straight joint motions between them, of which
             the first leads from the start onto the path
-clearance   smallest distance of a link to an obstacle, at or between ticks; negative inside; T: touching, within 0.001 mm
+clearance   smallest distance of a link to an obstacle, at or between ticks; negative inside; T: within 0.001 mm
 max step    largest step of one joint in one tick
 time        wall clock of a tick, the first left out; only for successes
 claimed     what the method says of its run; nothing: it does not claim that all its motions are free

@@ -42,7 +42,8 @@ std::string problem_text(const Json& problem) {
 std::string build_text(const Json& provenance) {
   constexpr std::size_t kCommitDigits = 10;
   return fmt::format(
-      "bqsa-bench {} (commit {}{}), {} {}; {}, {}", provenance.at("version").get<std::string>(),
+      "bqsa-bench {} (commit {}{}), {} {}\n     on {}, {}",
+      provenance.at("version").get<std::string>(),
       provenance.at("commit").get<std::string>().substr(0, kCommitDigits),
       provenance.at("dirty").get<bool>() ? ", modified" : "",
       provenance.at("compiler").get<std::string>(), provenance.at("build_type").get<std::string>(),

@@ -1,0 +1,153 @@
+// The command line itself: help, versions, bad input, and the commands that run nothing.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "program_runner.hpp"
+
+namespace bqsa::harness {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+class Everywhere : public ::testing::TestWithParam<std::string> {};
+
+std::vector<std::string> words_of(const std::string& command, const std::string& option) {
+  if (command == "program") return {option};
+  return {command, option};
+}
+
+TEST_P(Everywhere, HelpIsPrinted) {
+  const ProgramResult result = run_bqsa_bench(words_of(GetParam(), "--help"));
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.out, HasSubstr("Usage: bqsa-bench"));
+  EXPECT_THAT(result.out, HasSubstr("Exit status"));
+  EXPECT_THAT(result.err, IsEmpty());
+}
+
+TEST_P(Everywhere, VersionIsPrintedWithItsCommit) {
+  const ProgramResult result = run_bqsa_bench(words_of(GetParam(), "--version"));
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.out,
+              ::testing::MatchesRegex(
+                  R"(bqsa-bench [0-9]+\.[0-9]+\.[0-9]+ \(commit [a-z0-9]+(, modified)?\)\s)"));
+}
+
+TEST_P(Everywhere, UnknownOptionsAreRefused) {
+  const ProgramResult result = run_bqsa_bench(words_of(GetParam(), "--frobnicate"));
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, StartsWith("bqsa-bench: error: "));
+}
+
+INSTANTIATE_TEST_SUITE_P(Program, Everywhere,
+                         ::testing::Values("program", "list", "run", "show", "judge", "validate"),
+                         [](const auto& tested) { return tested.param; });
+
+struct BadCall {
+  const char* name;
+  std::vector<std::string> words;
+  const char* message;
+};
+
+void PrintTo(const BadCall& call, std::ostream* out) { *out << call.name; }
+
+class BadCalls : public ::testing::TestWithParam<BadCall> {};
+
+TEST_P(BadCalls, EndWithStatusTwoAndAMessageAndRunNothing) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path out = directory.path() / "results";
+  std::vector<std::string> words = GetParam().words;
+  if (words.size() > 0 && words[0] == "run") words.insert(words.end(), {"--out", out.string()});
+  const ProgramResult result = run_bqsa_bench(words);
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, StartsWith("bqsa-bench: error: "));
+  EXPECT_THAT(result.err, HasSubstr(GetParam().message));
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Program, BadCalls,
+    ::testing::Values(
+        BadCall{"NoCommand", {}, "subcommand"},
+        BadCall{"UnknownCommand", {"frobnicate"}, "unknown command or option 'frobnicate'"},
+        BadCall{"RunNothing", {"run"}, "SCENARIO"},
+        BadCall{"UnknownMethod",
+                {"run", kPlanar, "--method", "magic"},
+                "unknown method 'magic': expected one of none, bqsa"},
+        BadCall{"UnknownMethodAfterAGoodOne",
+                {"run", kPlanar, "--method", "none", "--method", "magic"},
+                "unknown method 'magic'"},
+        BadCall{"UnknownParameter",
+                {"run", kPlanar, "--method", "bqsa:gian=1"},
+                "method 'bqsa:gian=1': unknown parameter 'gian'"},
+        BadCall{"ParameterOfAMethodWithoutAny",
+                {"run", kPlanar, "--method", "none:gain=1"},
+                "unknown parameter 'gain'"},
+        BadCall{"ParameterOutOfRange",
+                {"run", kPlanar, "--method", "bqsa:increment=-1"},
+                "parameter 'increment': expected a number from"},
+        BadCall{
+            "ParameterNotANumber", {"run", kPlanar, "--method", "bqsa:increment=abc"}, "got 'abc'"},
+        BadCall{"NoValue",
+                {"run", kPlanar, "--method", "bqsa:x"},
+                "method 'bqsa:x': expected key=value, got 'x'"},
+        BadCall{"MethodTwice",
+                {"run", kPlanar, "--method", "none", "--method", "none"},
+                "method 'none' is given twice"},
+        BadCall{"SameScenarioTwice",
+                {"run", kPlanar, kPlanar, "--method", "none"},
+                "have the same scenario name 'planar_7r'; nothing was run"},
+        BadCall{"ShowWhatIsNotThere", {"show", "/nonexistent"}, "/nonexistent/runs.jsonl"},
+        BadCall{"ListWhatIsNotThere", {"list", "--scenarios", "/nonexistent"}, "/nonexistent"},
+        BadCall{"ValidateWhatIsNotThere", {"validate", "/nonexistent.yaml"}, "/nonexistent.yaml"},
+        BadCall{"JudgeWithoutTrajectory", {"judge", kPlanar}, "TRAJECTORY"},
+        BadCall{
+            "JudgeAMissingTrajectory", {"judge", kPlanar, "/nonexistent.csv"}, "/nonexistent.csv"}),
+    [](const auto& tested) { return tested.param.name; });
+
+TEST(Program, RunNeedsAResultsDirectory) {
+  const ProgramResult result = run_bqsa_bench({"run", kPlanar});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("--out"));
+}
+
+TEST(Program, ListShowsMethodsParametersAndScenarios) {
+  const ProgramResult result =
+      run_bqsa_bench({"list", "--scenarios", BQSA_SOURCE_DIR "/scenarios"});
+  EXPECT_EQ(result.status, 0);
+  for (const char* expected : {"none", "bqsa", "planar, spatial", "increment", "planar_7r",
+                               "puma560_ellipsoid", "puma560_wall"}) {
+    EXPECT_THAT(result.out, HasSubstr(expected));
+  }
+}
+
+TEST(Program, ListLooksForScenariosWhereItIsCalled) {
+  const ProgramResult here = run_bqsa_bench({"list"}, {}, BQSA_SOURCE_DIR);
+  EXPECT_EQ(here.status, 0);
+  EXPECT_THAT(here.out, HasSubstr("planar_7r"));
+  const ProgramResult elsewhere = run_bqsa_bench({"list"}, {}, "/");
+  EXPECT_EQ(elsewhere.status, 0);
+  EXPECT_THAT(elsewhere.out, HasSubstr("no ./scenarios here"));
+}
+
+TEST(Program, ValidateSpeaksOfEveryFile) {
+  const TemporaryDirectory directory;
+  const std::string broken = (directory.path() / "broken.yaml").string();
+  write_file(broken, "schema: [");
+  const ProgramResult result = run_bqsa_bench({"validate", kPlanar, broken, kPuma});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.out, HasSubstr("planar_7r.yaml: valid"));
+  EXPECT_THAT(result.out, HasSubstr("puma560_ellipsoid.yaml: valid"));
+  EXPECT_THAT(result.err, HasSubstr("broken.yaml"));
+  EXPECT_EQ(run_bqsa_bench({"validate", kPlanar, kPuma}).status, 0);
+}
+
+TEST(Program, OutputThatCannotBeWrittenIsAnError) {
+  const ProgramResult result = run_bqsa_bench({"list"}, "/dev/full", BQSA_SOURCE_DIR);
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("cannot write to standard output"));
+}
+
+}  // namespace
+}  // namespace bqsa::harness

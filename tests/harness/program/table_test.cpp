@@ -1,0 +1,162 @@
+#include "harness/results/table.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "harness/judge/judge.hpp"
+
+namespace bqsa::harness {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TableRow success(const std::string& scenario, const std::string& variant) {
+  TableRow row;
+  row.scenario = scenario;
+  row.problem = "7 joints";
+  row.variant = variant;
+  row.build = "some build";
+  row.ticks = 400;
+  row.rows = 401;
+  row.success = true;
+  row.claim = "success";
+  row.tip_error_at_ticks_m = 1.234e-6;
+  row.tip_error_between_ticks_m = 2e-5;
+  row.clearance_m = 0.0123;
+  row.max_joint_step_rad = 0.02;
+  row.step_median_s = 4.5e-6;
+  row.step_p99_s = 6.5e-5;
+  return row;
+}
+
+TableRow failure(const std::string& variant, std::vector<Failure> failures) {
+  TableRow row = success("a", variant);
+  row.success = false;
+  row.claim_holds = false;
+  for (const Failure failure : failures) row.failures.push_back(name_of(failure));
+  row.step_median_s = row.step_p99_s = TableRow::kNone;
+  return row;
+}
+
+/// The line of the table that shows the row of this variant.
+std::string line_of(const std::string& table, const std::string& variant) {
+  std::istringstream in(table);
+  for (std::string line; std::getline(in, line);) {
+    if (line.size() > 4 && line.compare(4, variant.size() + 1, variant + " ") == 0) return line;
+  }
+  return "no row of " + variant;
+}
+
+TEST(Table, ShowsASuccessWithItsFiguresInMillimetresDegreesAndMicroseconds) {
+  const std::string line = line_of(render_table({success("a", "good")}), "good");
+  EXPECT_THAT(line, ::testing::MatchesRegex(
+                        R"(\+   good +success +0\.00123 +0\.02 +12\.3 +1\.15 +4\.5 +65 +success)"));
+}
+
+TEST(Table, SaysThatAMethodLies) {
+  const std::string table = render_table({failure("liar", {Failure::kCollision})});
+  EXPECT_THAT(line_of(table, "liar"), ::testing::StartsWith("!   liar"));
+  EXPECT_THAT(line_of(table, "liar"), HasSubstr("collides"));
+  EXPECT_THAT(table, HasSubstr("CLAIMED SUCCESS, JUDGED A FAILURE"));
+}
+
+TEST(Table, NeverShowsTheTimeOfAFailure) {
+  const std::string failing = line_of(render_table({failure("bad", {Failure::kDrift})}), "bad");
+  EXPECT_THAT(failing, Not(HasSubstr("4.5")));
+  EXPECT_THAT(failing, Not(HasSubstr("65")));
+  EXPECT_THAT(failing, HasSubstr("drifts"));
+}
+
+TEST(Table, NamesEveryFailureTheWorstFirst) {
+  const std::string table =
+      render_table({failure("bad", {Failure::kCollision, Failure::kJump, Failure::kDrift})});
+  EXPECT_THAT(line_of(table, "bad"), HasSubstr("collides"));
+  EXPECT_THAT(table, HasSubstr("also: jumps, drifts"));
+}
+
+TEST(Table, SaysWhereAnHonestMethodGaveUp) {
+  TableRow row = failure("honest", {Failure::kIncomplete});
+  row.claim = "infeasible at tick 23";
+  row.claim_detail = "no free motion, link 6, obstacle";
+  row.claim_holds = true;
+  row.rows = 23;
+  const std::string table = render_table({row});
+  EXPECT_THAT(line_of(table, "honest"), ::testing::StartsWith("x   honest  infeasible at tick 23"));
+  EXPECT_THAT(table, HasSubstr("infeasible at tick 23: no free motion, link 6, obstacle"));
+  EXPECT_THAT(table, HasSubstr("figures cover the first 22 of 400 ticks"));
+  EXPECT_THAT(table, Not(HasSubstr("JUDGED A FAILURE")));
+}
+
+TEST(Table, CallsARunIncompleteIfItsMethodClaimsItIsNot) {
+  const std::string table = render_table({failure("short", {Failure::kIncomplete})});
+  EXPECT_THAT(line_of(table, "short"), HasSubstr("incomplete"));
+}
+
+TEST(Table, ListsPairsBelowTheRow) {
+  TableRow row = failure("bad", {Failure::kCollision});
+  row.collided = {"(5, obstacle)", "(7, object)"};
+  row.clamped = {"(6, obstacle) x 12"};
+  row.guard_fired = 2;
+  row.changed = "gain=3";
+  const std::string table = render_table({row});
+  EXPECT_THAT(table, HasSubstr("collided: (5, obstacle), (7, object)\n"));
+  EXPECT_THAT(table, HasSubstr("cleared:  (6, obstacle) x 12\n"));
+  EXPECT_THAT(table, HasSubstr("guard fired in 2 of 400 ticks\n"));
+  EXPECT_THAT(table, HasSubstr("with gain=3\n"));
+}
+
+TEST(Table, FlagsTouchingAndIndicativeTimes) {
+  TableRow row = success("a", "good");
+  row.touching = true;
+  row.against_times = {"load 3.0 on 2 cores"};
+  const std::string table = render_table({row});
+  EXPECT_THAT(line_of(table, "good"), HasSubstr("12.3 T"));
+  EXPECT_THAT(line_of(table, "good"), HasSubstr("~"));
+  EXPECT_THAT(table, HasSubstr("~ times indicative only: load 3.0 on 2 cores"));
+}
+
+TEST(Table, ShowsNotApplicableWithItsReason) {
+  TableRow row = success("a", "planar_only");
+  row.applicable = false;
+  row.success = false;
+  row.claim = "not applicable";
+  row.claim_detail = "spatial problems not supported yet";
+  const std::string table = render_table({row});
+  EXPECT_THAT(line_of(table, "planar_only"), ::testing::StartsWith("-   planar_only  n/a"));
+  EXPECT_THAT(table, HasSubstr("spatial problems not supported yet"));
+}
+
+TEST(Table, TheLastRunCountsAtThePlaceOfTheFirst) {
+  TableRow newer = success("a", "one");
+  newer.tip_error_at_ticks_m = 0.5e-3;
+  const std::string table =
+      render_table({success("a", "one"), success("b", "one"), success("a", "two"), newer});
+  EXPECT_THAT(line_of(table, "one"), HasSubstr(" 0.5 "));
+  EXPECT_LT(table.find("a: 7 joints"), table.find("b: 7 joints"));
+  EXPECT_EQ(table.find("a: 7 joints"), table.rfind("a: 7 joints"));
+  EXPECT_LT(table.find(" one "), table.find(" two "));
+}
+
+TEST(Table, FitsItsWidthWithManyPairs) {
+  TableRow row = failure("test_point@1a2b3c4d", {Failure::kCollision});
+  for (int i = 1; i <= 60; ++i) row.collided.push_back(std::to_string(i) + " obstacle");
+  row.claim = "infeasible at tick 100000";
+  std::istringstream in(render_table({row}));
+  int lines = 0;
+  for (std::string line; std::getline(in, line); ++lines) EXPECT_LE(line.size(), 120u) << line;
+  EXPECT_GT(lines, 20);
+}
+
+TEST(Table, SaysWhatSuccessMeansAndWhatMadeIt) {
+  const std::string table = render_table({success("a", "good")});
+  EXPECT_THAT(table, HasSubstr("no link in an\nobstacle at or between ticks"));
+  EXPECT_THAT(table, HasSubstr("made by some build"));
+}
+
+TEST(Table, OfNothingSaysSo) { EXPECT_EQ(render_table({}), "no runs\n"); }
+
+}  // namespace
+}  // namespace bqsa::harness
