@@ -27,7 +27,7 @@ void solve_hybrid_ik(const TaskJacobian& J, const TaskVector& x_dot, const Joint
   const JointVector root_w = weights.cwiseSqrt();
   const TaskJacobian J_w = J * root_w.cwiseInverse().asDiagonal();
   const Eigen::JacobiSVD<TaskJacobian> svd(J_w, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const TaskVector s = svd.singularValues();
+  const TaskVector& s = svd.singularValues();
   const Eigen::Index m = s.size();
 
   Eigen::Index rank = 0;

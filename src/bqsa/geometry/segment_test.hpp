@@ -71,20 +71,30 @@ Eigen::Matrix<double, Dim, 1> unit_point(const EllipsoidN<Dim>& ellipsoid,
   return unit_point<double, Dim>(ellipsoid.unit_map(), ellipsoid.center(), p);
 }
 
+/// Scalar product, written out: Eigen's own would load in pairs what was just stored one by one,
+/// and wait for it.
+template <typename Scalar, int Dim>
+Scalar inner(const Eigen::Matrix<Scalar, Dim, 1>& a, const Eigen::Matrix<Scalar, Dim, 1>& b) {
+  Scalar sum = a(0) * b(0);
+  for (int k = 1; k < Dim; ++k) sum += a(k) * b(k);
+  return sum;
+}
+
 /// Parameter form of the link from u1 to u2, both given by `unit_point`.
 template <typename Scalar, int Dim>
 ParameterForm<Scalar> parameter_form(const Eigen::Matrix<Scalar, Dim, 1>& u1,
                                      const Eigen::Matrix<Scalar, Dim, 1>& u2) {
-  const Eigen::Matrix<Scalar, Dim, 1> v = u2 - u1;
-  const Scalar half_beta = u1.dot(v);
-  return {v.dot(v), half_beta + half_beta, u1.dot(u1) - Scalar(1)};
+  Eigen::Matrix<Scalar, Dim, 1> v;
+  for (int k = 0; k < Dim; ++k) v(k) = u2(k) - u1(k);
+  const Scalar half_beta = inner(u1, v);
+  return {inner(v, v), half_beta + half_beta, inner(u1, u1) - Scalar(1)};
 }
 
 /// Polar form of the link from u1 to u2, both given by `unit_point`.
 template <typename Scalar, int Dim>
 PolarForm<Scalar> polar_form(const Eigen::Matrix<Scalar, Dim, 1>& u1,
                              const Eigen::Matrix<Scalar, Dim, 1>& u2) {
-  return {u1.dot(u1) - Scalar(1), u1.dot(u2) - Scalar(1), u2.dot(u2) - Scalar(1)};
+  return {inner(u1, u1) - Scalar(1), inner(u1, u2) - Scalar(1), inner(u2, u2) - Scalar(1)};
 }
 
 template <int Dim>

@@ -1,0 +1,17 @@
+# The target `header_check`: every header under src compiles alone.
+option(BQSA_CHECK_HEADERS "Compile every header under src on its own" OFF)
+
+if(BQSA_CHECK_HEADERS)
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/src
+    ${PROJECT_SOURCE_DIR}/src/*.hpp)
+  set(sources)
+  foreach(header IN LISTS headers)
+    set(source ${PROJECT_BINARY_DIR}/header_check/${header}.cpp)
+    file(CONFIGURE OUTPUT ${source} CONTENT "#include \"${header}\"\n")
+    list(APPEND sources ${source})
+  endforeach()
+  add_library(header_check OBJECT ${sources})
+  bqsa_target(header_check)
+  target_link_libraries(header_check PRIVATE
+    harness fcl yaml-cpp nlohmann_json::nlohmann_json CLI11::CLI11 fmt::fmt)
+endif()
