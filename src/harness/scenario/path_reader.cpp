@@ -82,7 +82,7 @@ fs::path file_beside(const YamlValue& value, const fs::path& directory) {
   const fs::path home = fs::weakly_canonical(directory.empty() ? "." : directory, error);
   const fs::path target = error ? fs::path() : fs::weakly_canonical(home / name, error);
   const fs::path inside = error ? fs::path() : target.lexically_relative(home);
-  if (error || name.empty() || name.is_absolute() || inside.empty() || *inside.begin() == "..") {
+  if (error || name.is_absolute() || inside.empty() || inside == "." || *inside.begin() == "..") {
     value.fail("a file in the scenario's directory");
   }
   return directory / name;

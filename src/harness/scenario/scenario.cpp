@@ -68,6 +68,9 @@ Scenario load_scenario(const std::filesystem::path& file) {
     return value ? units.non_negative_length(*value) : absent;
   };
 
+  const double tolerance = length_or("tolerance", kDefaultTolerance);
+  if (!(tolerance > 0)) top.get("tolerance", "a length").fail("a positive length");
+
   Robot robot = read_robot(top.get("robot", "a mapping with a kind"), units);
   const int dimension = robot.chain.dimension();
   const YamlValue start_value = top.get("start", "a list of joint angles");
@@ -87,7 +90,7 @@ Scenario load_scenario(const std::filesystem::path& file) {
                   .limits = robot.limits,
                   .link_radius = robot.link_radius,
                   .margin = length_or("margin", 0),
-                  .tolerance = length_or("tolerance", kDefaultTolerance)};
+                  .tolerance = tolerance};
   check_start(start_value, problem, units);
   check_path(task_value.get("path", "a path"), problem, task,
              length_or("start_tolerance", kDefaultTolerance), units);

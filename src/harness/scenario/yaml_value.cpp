@@ -116,6 +116,10 @@ void YamlValue::fail(const std::string& expected, const std::string& got) const 
 
 void YamlValue::fail(const std::string& expected) const { fail(expected, found()); }
 
+std::string YamlValue::path_of(const std::string& key) const {
+  return key_.empty() ? key : key_ + '.' + key;
+}
+
 std::string YamlValue::found() const {
   switch (node_.Type()) {
     case YAML::NodeType::Scalar:
@@ -135,7 +139,7 @@ void YamlValue::expect_keys(const std::vector<std::string>& known) const {
   for (const auto& entry : node_) {
     if (!entry.first.IsScalar()) child(entry.first, key_).fail("a key");
     const std::string& key = entry.first.Scalar();
-    const std::string path = key_.empty() ? excerpt(key) : key_ + '.' + excerpt(key);
+    const std::string path = path_of(excerpt(key));
     if (std::find(known.begin(), known.end(), key) == known.end()) {
       child(entry.first, path)
           .fail(fmt::format("a known key, the nearest being {}", nearest(key, known)));
@@ -144,20 +148,23 @@ void YamlValue::expect_keys(const std::vector<std::string>& known) const {
   }
 }
 
-bool YamlValue::has(const std::string& key) const {
-  return node_.IsMap() && std::as_const(node_)[key].IsDefined();
-}
+bool YamlValue::has(const std::string& key) const { return find(key).has_value(); }
 
 YamlValue YamlValue::get(const std::string& key, const std::string& expected) const {
-  const std::string path = key_.empty() ? key : key_ + '.' + key;
   if (!node_.IsMap()) fail("a mapping");
-  if (!has(key)) YamlValue(file_, YAML::Node(), line_, path).fail(expected);
-  return child(std::as_const(node_)[key], path);
+  if (const std::optional<YamlValue> value = find(key)) return *value;
+  YamlValue(file_, YAML::Node(), line_, path_of(key)).fail(expected);
 }
 
 std::optional<YamlValue> YamlValue::find(const std::string& key) const {
-  if (!has(key)) return std::nullopt;
-  return get(key, "");
+  if (!node_.IsMap()) return std::nullopt;
+  for (const auto& entry : node_) {
+    if (!entry.first.IsScalar() || entry.first.Scalar() != key) continue;
+    // yaml-cpp places an empty value where the next one begins.
+    const YAML::Node& place = entry.second.IsNull() ? entry.first : entry.second;
+    return YamlValue(file_, entry.second, place.Mark().line + 1, path_of(key));
+  }
+  return std::nullopt;
 }
 
 std::vector<YamlValue> YamlValue::list(const std::string& expected) const {

@@ -27,8 +27,6 @@ class YamlValue {
   /// @param text  its content
   static YamlValue parse(const std::string& file, const std::string& text);
 
-  const std::string& key() const { return key_; }
-  const std::string& file() const { return file_; }
 
   /// Refuses this value.
   [[noreturn]] void fail(const std::string& expected, const std::string& got) const;
@@ -78,6 +76,7 @@ class YamlValue {
  private:
   YamlValue(std::string file, YAML::Node node, int line, std::string key);
   YamlValue child(const YAML::Node& node, std::string key) const;
+  std::string path_of(const std::string& key) const;
   std::string found() const;
 
   std::string file_;

@@ -1,0 +1,322 @@
+// Good scenarios become the problems that they describe, in SI units.
+#include "harness/scenario/scenario.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <sstream>
+#include <string>
+
+#include "bqsa/kinematics/serial_chain.hpp"
+#include "harness/scenario/scenario_files.hpp"
+
+namespace bqsa::harness {
+namespace {
+
+using Eigen::Vector3d;
+constexpr double kDegree = std::numbers::pi / 180;
+
+Vector3d start_tip(const Problem& problem) {
+  ChainPose pose;
+  problem.chain.forward(problem.start, pose);
+  return pose.tip();
+}
+
+Scenario shipped(const std::string& name) {
+  return load_scenario(std::filesystem::path(BQSA_SOURCE_DIR) / "scenarios" / (name + ".yaml"));
+}
+
+constexpr const char* kPlanar = R"(schema: bqsa-scenario/1
+name: every_planar_key
+description: every key of a planar scenario
+units: {length: m, angle: deg}
+robot:
+  kind: planar
+  base: [0.5, 0.25]
+  links: [1, 0.5, 0.25]
+  limits: {lower: [-180, -90, -90], upper: [180, 90, 45], max_velocity: [30, 60, 90]}
+  link_radius: 0.0625
+start: [90, -45, -45]
+start_tolerance: 2
+task:
+  path: {kind: line, start_point: [1, 1], end_point: [1.5, 1]}
+  timing: {duration: 5, ticks: 20, profile: quintic}
+obstacles:
+  - {name: one, kind: ellipse, center: [-1, 1], semi_axes: [0.25, 0.5], rotation: 90}
+margin: 0.01
+tolerance: 0.002
+)";
+
+TEST(Scenario, AcceptsEveryKeyOfAPlanarScenario) {
+  const TestDirectory directory;
+  const Scenario scenario = directory.load(kPlanar);
+  const Problem& problem = scenario.problem;
+  EXPECT_EQ(scenario.description, "every key of a planar scenario");
+  EXPECT_EQ(scenario.file, directory.path() / "s.yaml");
+  EXPECT_EQ(problem.name, "every_planar_key");
+  EXPECT_EQ(problem.dimension(), 2);
+  EXPECT_EQ(problem.ticks, 20);
+  EXPECT_EQ(problem.dt, 0.25);
+  EXPECT_EQ(problem.link_radius, 0.0625);
+  EXPECT_EQ(problem.margin, 0.01);
+  EXPECT_EQ(problem.tolerance, 0.002);
+  EXPECT_TRUE(problem.start.isApprox(Vector3d(90, -45, -45) * kDegree, 1e-15));
+  EXPECT_TRUE(problem.limits.lower.isApprox(Vector3d(-180, -90, -90) * kDegree, 1e-15));
+  EXPECT_TRUE(problem.limits.upper.isApprox(Vector3d(180, 90, 45) * kDegree, 1e-15));
+  EXPECT_TRUE(problem.limits.max_velocity.isApprox(Vector3d(30, 60, 90) * kDegree, 1e-15));
+  const double h = std::sqrt(0.5);
+  EXPECT_LT((start_tip(problem) - Vector3d(0.75 + 0.5 * h, 1.25 + 0.5 * h, 0)).norm(), 1e-14);
+
+  ASSERT_EQ(problem.obstacles.size(), 1U);
+  const Ellipsoid& shape = problem.obstacles[0].shape;
+  EXPECT_EQ(problem.obstacles[0].name, "one");
+  EXPECT_EQ(shape.center(), Vector3d(-1, 1, 0));
+  EXPECT_EQ(shape.semi_axes(), Vector3d(0.25, 0.5, 0.5));
+  EXPECT_LT((shape.rotation().col(0) - Vector3d::UnitY()).norm(), 1e-15);
+}
+
+TEST(Scenario, AcceptsEveryKeyOfASpatialScenario) {
+  for (const std::string kind : {"dh", "mdh"}) {
+    SCOPED_TRACE(kind);
+    const TestDirectory directory;
+    const Problem problem =
+        directory
+            .load(
+                "schema: bqsa-scenario/1\nname: s\nunits: {length: mm, angle: deg}\n"
+                "robot:\n  kind: " +
+                kind +
+                "\n  base: [100, 200, 300]\n  rpy: [0, 0, 90]\n  joints:\n"
+                "    - {a: 10, alpha: 90, d: 20, offset: 30, lower: -5, upper: 5,"
+                " max_velocity: 45}\n"
+                "    - {a: 400, alpha: 0, d: 0, max_velocity: 90}\n"
+                "  tool: [0, 0, 50]\n  link_radius: 5\n"
+                "start: [0, 0]\nstart_tolerance: 2000\ntask:\n"
+                "  path: {kind: line, start_point: [100, 600, 320], end_point: [100, 600, 330]}\n"
+                "  timing: {duration: 1, ticks: 4, profile: linear}\nobstacles:\n"
+                "  - {name: a, kind: ellipsoid, center: [0, 0, 900], semi_axes: [50, 60, 70],"
+                " rpy: [0, 0, 90]}\n"
+                "  - {name: b, kind: ellipsoid, center: [0, 0, 900], semi_axes: [50, 60, 70],"
+                " quaternion: [0, 1, 0, 0]}\n"
+                "  - {name: c, kind: sphere, center: [0, 0, 900], radius: 50}\n")
+            .problem;
+    const ChainDescription& chain = problem.chain.description();
+    EXPECT_EQ(chain.convention, kind == "dh" ? DhConvention::kStandard : DhConvention::kModified);
+    ASSERT_EQ(chain.rows.size(), 2U);
+    EXPECT_EQ(chain.rows[0].a, 0.01);
+    EXPECT_DOUBLE_EQ(chain.rows[0].alpha, 90 * kDegree);
+    EXPECT_EQ(chain.rows[0].d, 0.02);
+    EXPECT_DOUBLE_EQ(chain.rows[0].offset, 30 * kDegree);
+    EXPECT_EQ(chain.rows[1].offset, 0);
+    EXPECT_EQ(chain.p_WB, Vector3d(0.1, 0.2, 0.3));
+    EXPECT_LT((chain.R_WB.col(0) - Vector3d::UnitY()).norm(), 1e-15);
+    EXPECT_EQ(chain.p_LT, Vector3d(0, 0, 0.05));
+    EXPECT_EQ(problem.link_radius, 0.005);
+    EXPECT_DOUBLE_EQ(problem.limits.lower(0), -5 * kDegree);
+    EXPECT_TRUE(std::isinf(problem.limits.lower(1)) && problem.limits.lower(1) < 0);
+    EXPECT_TRUE(std::isinf(problem.limits.upper(1)) && problem.limits.upper(1) > 0);
+    EXPECT_DOUBLE_EQ(problem.limits.max_velocity(1), 90 * kDegree);
+    ASSERT_EQ(problem.obstacles.size(), 3U);
+    EXPECT_LT((problem.obstacles[1].shape.rotation().diagonal() - Vector3d(1, -1, -1)).norm(),
+              1e-15);
+    EXPECT_EQ(problem.obstacles[2].shape.semi_axes(), Vector3d::Constant(0.05));
+  }
+}
+
+TEST(Scenario, WhatIsLeftOutHasItsDocumentedDefault) {
+  const TestDirectory directory;
+  const Scenario scenario = directory.load(
+      "schema: bqsa-scenario/1\nname: s\nunits: {length: mm, angle: rad}\n"
+      "robot: {kind: planar, links: [1000, 500]}\nstart: [0, 0]\n"
+      "task:\n  path: {kind: ellipse_arc, center: [1000, 0], semi_axes: [500, 250], from: 0, to: "
+      "1}\n"
+      "  timing: {duration: 1, ticks: 4}\n");
+  const Problem& problem = scenario.problem;
+  EXPECT_EQ(scenario.description, "");
+  EXPECT_TRUE(problem.obstacles.empty());
+  EXPECT_EQ(problem.margin, 0);
+  EXPECT_EQ(problem.tolerance, 1e-3);
+  EXPECT_EQ(problem.link_radius, 0);
+  EXPECT_EQ(problem.limits.lower.size() + problem.limits.upper.size(), 0);
+  EXPECT_EQ(problem.limits.max_velocity.size(), 0);
+  EXPECT_EQ(start_tip(problem), Vector3d(1.5, 0, 0));
+  EXPECT_LT((problem.desired_tip(0.5) - Vector3d(1 + 0.5 * std::cos(0.5), 0.25 * std::sin(0.5), 0))
+                .norm(),
+            1e-15);
+}
+
+TEST(Scenario, MillimetresAndDegreesGiveTheProblemOfMetresAndRadians) {
+  const TestDirectory directory;
+  const std::string head = "schema: bqsa-scenario/1\nname: s\n";
+  const Problem a =
+      directory
+          .load(head +
+                "units: {length: mm, angle: deg}\n"
+                "robot: {kind: dh, base: [125, 0, 0], tool: [0, 0, 250], link_radius: 31.25,\n"
+                "  limits: {lower: [-180, -180], upper: [180, 180], max_velocity: [90, 90]},\n"
+                "  joints: [{a: 0, alpha: 90, d: 500, offset: 45}, {a: 375, alpha: 0, d: 0}]}\n"
+                "start: [90, 0]\nstart_tolerance: 4000\n"
+                "task: {path: {kind: circle, center: [0, 0, 750], radius: 62.5, from: 0, to: 180,\n"
+                "  axis_u: [1, 0, 0], axis_v: [0, 1, 0]}, timing: {duration: 1, ticks: 4}}\n"
+                "obstacles: [{name: a, kind: ellipsoid, center: [0, 0, 2000], rpy: [0, 45, 90],\n"
+                "  semi_axes: [125, 250, 500]}]\nmargin: 1\ntolerance: 2\n")
+          .problem;
+  const Problem b =
+      directory
+          .load(
+              head +
+              "units: {length: m, angle: rad}\n"
+              "robot: {kind: dh, base: [0.125, 0, 0], tool: [0, 0, 0.25], link_radius: 0.03125,\n"
+              "  limits: {lower: [-3.141592653589793, -3.141592653589793],\n"
+              "    upper: [3.141592653589793, 3.141592653589793],\n"
+              "    max_velocity: [1.5707963267948966, 1.5707963267948966]},\n"
+              "  joints: [{a: 0, alpha: 1.5707963267948966, d: 0.5, offset: 0.7853981633974483},\n"
+              "    {a: 0.375, alpha: 0, d: 0}]}\n"
+              "start: [1.5707963267948966, 0]\nstart_tolerance: 4\n"
+              "task: {path: {kind: circle, center: [0, 0, 0.75], radius: 0.0625, from: 0,\n"
+              "  to: 3.141592653589793, axis_u: [1, 0, 0], axis_v: [0, 1, 0]},\n"
+              "  timing: {duration: 1, ticks: 4}}\n"
+              "obstacles: [{name: a, kind: ellipsoid, center: [0, 0, 2],\n"
+              "  rpy: [0, 0.7853981633974483, 1.5707963267948966],\n"
+              "  semi_axes: [0.125, 0.25, 0.5]}]\nmargin: 0.001\ntolerance: 0.002\n")
+          .problem;
+  EXPECT_EQ(start_tip(a), start_tip(b));
+  EXPECT_EQ(a.start, b.start);
+  EXPECT_EQ(a.limits.lower, b.limits.lower);
+  EXPECT_EQ(a.limits.upper, b.limits.upper);
+  EXPECT_EQ(a.limits.max_velocity, b.limits.max_velocity);
+  EXPECT_EQ(a.link_radius, b.link_radius);
+  EXPECT_EQ(a.margin, b.margin);
+  EXPECT_EQ(a.tolerance, b.tolerance);
+  EXPECT_EQ(a.obstacles[0].shape.center(), b.obstacles[0].shape.center());
+  EXPECT_EQ(a.obstacles[0].shape.unit_map(), b.obstacles[0].shape.unit_map());
+  for (int tick = 0; tick <= a.ticks; ++tick) {
+    EXPECT_EQ(a.desired_tip(a.time(tick)), b.desired_tip(b.time(tick))) << tick;
+  }
+}
+
+TEST(Scenario, RpyAndQuaternionOfOneRotationGiveOneEllipsoid) {
+  const TestDirectory directory;
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(-3.2, 3.2);
+  const auto number = [](double value) {
+    std::ostringstream text;
+    text.precision(17);
+    text << value;
+    return text.str();
+  };
+  int cases = 0;
+  for (; cases < 200; ++cases) {
+    const double r = uniform(random), p = uniform(random), y = uniform(random);
+    // The product of the half-angle quaternions of z, y and x, written out.
+    const double cr = std::cos(r / 2), sr = std::sin(r / 2), cp = std::cos(p / 2);
+    const double sp = std::sin(p / 2), cy = std::cos(y / 2), sy = std::sin(y / 2);
+    const std::string quaternion =
+        number(cy * cp * cr + sy * sp * sr) + ", " + number(cy * cp * sr - sy * sp * cr) + ", " +
+        number(cy * sp * cr + sy * cp * sr) + ", " + number(sy * cp * cr - cy * sp * sr);
+    const std::string shape = "kind: ellipsoid, center: [9, 9, 9], semi_axes: [1, 2, 3]";
+    const Problem problem =
+        directory
+            .load(
+                "schema: bqsa-scenario/1\nname: s\nunits: {length: m, angle: rad}\n"
+                "robot: {kind: mdh, joints: [{a: 0, alpha: 0, d: 0}], tool: [1, 0, 0]}\n"
+                "start: [0]\ntask: {path: {kind: line, start_point: [1, 0, 0],"
+                " end_point: [1, 0, 0]}, timing: {duration: 1, ticks: 1}}\nobstacles:\n  - {" +
+                shape + ", name: a, rpy: [" + number(r) + ", " + number(p) + ", " + number(y) +
+                "]}\n  - {" + shape + ", name: b, quaternion: [" + quaternion + "]}\n")
+            .problem;
+    ASSERT_LT((problem.obstacles[0].shape.rotation() - problem.obstacles[1].shape.rotation())
+                  .cwiseAbs()
+                  .maxCoeff(),
+              1e-14)
+        << "case " << cases;
+  }
+  EXPECT_EQ(cases, 200);
+}
+
+TEST(Scenario, ThePlanarScenarioHasItsDocumentedNumbers) {
+  const Problem problem = shipped("planar_7r").problem;
+  EXPECT_EQ(problem.chain.joints(), 7);
+  EXPECT_EQ(problem.ticks, 400);
+  EXPECT_EQ(problem.dt, 0.025);
+  EXPECT_EQ(problem.tolerance, 1e-3);
+  ASSERT_EQ(problem.obstacles.size(), 2U);
+  EXPECT_EQ(problem.obstacles[0].name, "object");
+  EXPECT_EQ(problem.obstacles[1].shape.semi_axes(), Vector3d(0.21, 0.10, 0.21));
+  const Vector3d path_start(1.6 + 0.46 * std::cos(150 * kDegree),
+                            -0.35 + 0.31 * std::sin(150 * kDegree), 0);
+  EXPECT_LT((problem.desired_tip(0) - path_start).norm(), 1e-14);
+  EXPECT_LT((start_tip(problem) - path_start).norm(), 0.005);
+}
+
+TEST(Scenario, ThePumaScenariosHaveTheirDocumentedNumbers) {
+  for (const std::string name : {"puma560_ellipsoid", "puma560_wall"}) {
+    SCOPED_TRACE(name);
+    const Problem problem = shipped(name).problem;
+    EXPECT_EQ(problem.chain.joints(), 6);
+    EXPECT_EQ(problem.ticks, 360);
+    // Documented in millimetres to two digits.
+    EXPECT_LT((start_tip(problem) - Vector3d(0.64420, 0, 0.53297)).cwiseAbs().maxCoeff(), 5e-6);
+    EXPECT_LT((problem.desired_tip(5) - Vector3d(0.6442, 0, 0.73297)).norm(), 1e-14);
+    ASSERT_EQ(problem.obstacles.size(), 1U);
+  }
+  EXPECT_EQ(shipped("puma560_wall").problem.obstacles[0].shape.semi_axes(),
+            Vector3d(0.0001, 0.1, 10));
+}
+
+TEST(Scenario, Sha256IsThatOfTheFilesBytes) {
+  const TestDirectory directory;
+  EXPECT_EQ(directory.load(kPlanar).sha256,
+            "d291dc21e3853d4d2112f3d7837c19132eb73a8a2f4e7359a93a5b4016554395");  // as sha256sum
+                                                                                  // prints it
+}
+
+TEST(Scenario, AStartThatTouchesIsFree) {
+  const TestDirectory directory;
+  const auto load = [&directory](const std::string& height) {
+    return message_of(directory, [&] {
+      directory.load(
+          "schema: bqsa-scenario/1\nname: s\nunits: {length: m, angle: deg}\n"
+          "robot: {kind: planar, links: [1, 1]}\nstart: [0, 90]\n"
+          "task: {path: {kind: line, start_point: [1, 1], end_point: [1, 0.9]},"
+          " timing: {duration: 1, ticks: 1}}\n"
+          "obstacles: [{name: a, kind: ellipse, center: [0.5, " +
+          height + "], semi_axes: [0.25, 0.125]}]\n");
+    });
+  };
+  EXPECT_EQ(load("0.125"), "no error");
+  EXPECT_EQ(load("0.1249995"), "no error");
+  EXPECT_EQ(load("0.124998"),
+            "s.yaml:5: start: expected a start free of collision, got link 1, 2e-06 m deep in "
+            "obstacle a");
+}
+
+// The path is 2 m long and has 1 tick: nothing but the continuous test can see the sheet.
+TEST(Scenario, APathThroughAThinSheetIsRefusedWhereverItStands) {
+  const TestDirectory directory;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(0.05, 1.9);
+  int cases = 0;
+  for (; cases < 100; ++cases) {
+    const double x = uniform(random);
+    const std::string message = message_of(directory, [&] {
+      directory.load(
+          "schema: bqsa-scenario/1\nname: s\nunits: {length: m, angle: deg}\n"
+          "robot: {kind: planar, links: [2, 2]}\nstart: [60, -120]\n"
+          "task: {path: {kind: line, start_point: [2, 0], end_point: [0, 0]},"
+          " timing: {duration: 2, ticks: 1}}\n"
+          "obstacles: [{name: sheet, kind: ellipse, center: [" +
+          std::to_string(x) + ", 0], semi_axes: [0.00001, 0.02]}]\n");
+    });
+    ASSERT_TRUE(
+        message.starts_with("s.yaml:6: task.path: expected a path free of obstacles, got "
+                            "one that enters obstacle sheet at t = "))
+        << "case " << cases << ": " << message;
+    EXPECT_NEAR(std::stod(message.substr(message.rfind('=') + 1)), 2 - x, 1e-3) << "case " << cases;
+  }
+  EXPECT_EQ(cases, 100);
+}
+
+}  // namespace
+}  // namespace bqsa::harness
