@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
+#include "support/allocation_guard.hpp"
 #include "test_methods.hpp"
 
 namespace bqsa::harness {
@@ -43,6 +45,23 @@ TEST_F(Runner, FeedsAMethodItsOwnJointAnglesAndTheDesiredTipAtTheEndOfEachTick) 
   EXPECT_EQ(outcome.trajectory.q.front(), problem_.start);
   EXPECT_EQ(outcome.trajectory.q.back(), expected);
   EXPECT_EQ(outcome.trajectory.t.back(), problem_.time(ticks_));
+}
+
+TEST_F(Runner, TakesNoMemoryBetweenTheFirstAndTheLastStep) {
+  if (!test_support::kCountsAllocations) return;
+  std::optional<test_support::AllocationGuard> guard;
+  std::uint64_t allocations = 0;
+  int steps = 0;
+  run(scripted("clamping", [&](const StepInput& input, StepOutput& output) {
+    if (!guard) guard.emplace();
+    stand_still(input, output);
+    output.clamp_count = 1;
+    output.clamps[0] = {.link = 7, .obstacle = 1};
+    allocations = guard->allocations();
+    ++steps;
+  }));
+  EXPECT_EQ(allocations, 0u);
+  EXPECT_EQ(steps, ticks_);
 }
 
 TEST_F(Runner, GivesEveryTickAFreshOutput) {
