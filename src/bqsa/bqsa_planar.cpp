@@ -44,7 +44,7 @@ void BqsaPlanar::step(const StepInput& input, StepOutput& output) {
   double distance = settings_.safety_offset;
   MotionCertificate::Result motion;
   for (int attempt = 0; attempt <= settings_.retries; ++attempt, distance *= 2) {
-    obstacles_.grow(problem_->link_radius + problem_->margin + distance);
+    obstacles_.keep(problem_->link_radius + problem_->margin + distance);
     output.clamp_count = 0;
     q_ = q_predicted;
     if (!search_backward(input.q, output)) {  // 3, 4

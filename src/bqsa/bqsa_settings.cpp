@@ -6,7 +6,7 @@ std::vector<ParameterDeclaration> bqsa_parameters(const BqsaSettings& d) {
   return {
       {"increment", "rad", d.increment, 1e-6, 0.1, "clamping increment dTheta"},
       {"search_range", "rad", d.search_range, 1e-4, 3.15,
-       "largest clamping offset of one link in one tick, d_max"},
+       "largest way one link is clamped in one tick, d_max"},
       integer_parameter("settling", "-", d.settling, 0, 40,
                         "halvings of the last increment, between colliding and free"),
       {"safety_offset", "m", d.safety_offset, 1e-9, 0.1,

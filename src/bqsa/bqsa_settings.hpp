@@ -12,7 +12,7 @@ namespace bqsa {
 struct BqsaSettings {
   HybridIkSettings ik;
   double increment = 2e-3;    ///< dTheta: clamping increment [rad]
-  double search_range = 0.6;  ///< d_max: largest clamping offset of one link in one tick [rad]
+  double search_range = 0.6;  ///< d_max: largest way one link is clamped in one tick [rad]
   int settling =
       7;  ///< halvings of the last increment, between colliding and free; 0: as the paper
   double safety_offset = 1e-5;  ///< distance beyond link radius and margin kept from obstacles [m]

@@ -38,7 +38,7 @@ void BqsaSpatial::step(const StepInput& input, StepOutput& output) {
   double distance = settings_.safety_offset;
   MotionCertificate::Result motion;
   for (int attempt = 0; attempt <= settings_.retries; ++attempt, distance *= 2) {
-    obstacles_.grow(problem_->link_radius + problem_->margin + distance);
+    obstacles_.keep(problem_->link_radius + problem_->margin + distance);
     output.clamp_count = 0;
     q_ = q_predicted;
     problem_->chain.forward(q_, pose_);
@@ -98,7 +98,10 @@ Infeasible BqsaSpatial::free_link(const StepInput& input, const Link& link, Clam
     ++counters_.iterations;
     ++clamp.increments;
     clamp.offset = (q_ - q_start).cwiseAbs().maxCoeff();
-    if (clamp.offset > settings_.search_range) return Infeasible::kNoFreeConfiguration;
+    // The way travelled, not the way from the start, so that a link that moves to and fro ends too.
+    if (clamp.increments * settings_.increment > settings_.search_range) {
+      return Infeasible::kNoFreeConfiguration;
+    }
     const Infeasible forbidden = forbidden_step(*problem_, input.q, q_);
     if (forbidden != Infeasible::kNot) return forbidden;
     obstacle = obstacles_.first_hit(pose_, link);

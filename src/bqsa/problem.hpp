@@ -29,19 +29,20 @@ struct JointLimits {
 /// Largest joint step between two ticks where no velocity limit is given [rad].
 inline constexpr double kDefaultMaxStep = 15.0 * std::numbers::pi / 180.0;
 
-/// Follow x_d(t) with the tip from `start` on, no link in any obstacle at any time. SI units, frame W.
+/// Follow x_d(t) with the tip from `start` on, no link in any obstacle at any time. SI units, frame
+/// W.
 struct Problem {
   std::string name;
   SerialChain chain;
-  std::vector<Obstacle> obstacles;
+  std::vector<Obstacle> obstacles = {};
 
   /// Desired tip position x_d(t) for t in [0, duration()] [s -> m]. Planar problems leave z = 0.
-  std::function<Eigen::Vector3d(double)> desired_tip;
+  std::function<Eigen::Vector3d(double)> desired_tip = {};
   int ticks = 0;  ///< control periods; the trajectory has ticks + 1 rows, row 0 is `start`
   double dt = 0;  ///< control period [s]
 
-  JointVector start;        ///< joint angles at t = 0 [rad]
-  JointLimits limits;       ///< optional
+  JointVector start = {};   ///< joint angles at t = 0 [rad]
+  JointLimits limits = {};  ///< optional
   double link_radius = 0;   ///< every link is a capsule of this radius [m]
   double margin = 0;        ///< clearance that methods are asked to keep [m]
   double tolerance = 1e-3;  ///< largest tip error at ticks that counts as success [m]

@@ -1,0 +1,242 @@
+#include "bqsa/bqsa_planar.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "bqsa/bqsa_methods.hpp"
+#include "support/allocation_guard.hpp"
+#include "support/paper_problems.hpp"
+#include "support/replay.hpp"
+#include "support/sampling.hpp"
+
+namespace bqsa {
+namespace {
+
+using test_support::kDegree;
+using test_support::LinkAndObstacle;
+using test_support::planar_7r;
+using test_support::Replay;
+using test_support::replay;
+using test_support::sampled_hits;
+using ::testing::IsEmpty;
+using ::testing::IsSubsetOf;
+using ::testing::UnorderedElementsAre;
+
+const LinkAndObstacle kLink6Obstacle{6, 1};
+const LinkAndObstacle kLink7Object{7, 0};
+
+BqsaSettings as_the_paper() {
+  BqsaSettings settings;
+  settings.settling = 0;
+  return settings;
+}
+
+/// The paper's scene with the control period as the parameter.
+class PlanarScene : public ::testing::TestWithParam<int> {};
+
+TEST_P(PlanarScene, ExactVariantIsFreeAtAndBetweenTicks) {
+  const Problem problem = planar_7r(GetParam());
+  BqsaPlanar method(PlanarVariant::kExact);
+  const Replay run = replay(method, problem);
+  ASSERT_EQ(run.q.size(), static_cast<std::size_t>(problem.ticks + 1));
+  EXPECT_THAT(sampled_hits(problem, run.q, 8000 / problem.ticks), IsEmpty());
+  EXPECT_THAT(run.clamped, UnorderedElementsAre(kLink6Obstacle, kLink7Object));
+  EXPECT_LT(run.tip_error, 1e-8);
+  EXPECT_LT(run.largest_step, 2 * kDegree);
+}
+
+TEST_P(PlanarScene, PaperVariantIsFreeWithinItsReportedError) {
+  const Problem problem = planar_7r(GetParam());
+  BqsaPlanar method(PlanarVariant::kPaper, as_the_paper());
+  const Replay run = replay(method, problem);
+  ASSERT_EQ(run.q.size(), static_cast<std::size_t>(problem.ticks + 1));
+  EXPECT_THAT(sampled_hits(problem, run.q, 8000 / problem.ticks), IsEmpty());
+  EXPECT_THAT(run.clamped, UnorderedElementsAre(kLink6Obstacle, kLink7Object));
+  EXPECT_LT(run.tip_error, 3.5e-3);
+  EXPECT_LE(run.guard_fired, run.clamped_ticks / 10);
+}
+
+INSTANTIATE_TEST_SUITE_P(Ticks, PlanarScene, ::testing::Values(200, 400, 1000, 4000),
+                         ::testing::PrintToStringParamName());
+
+TEST(BqsaPlanar, WithoutObstaclesItTracksAndNeverClamps) {
+  Problem problem = planar_7r();
+  problem.obstacles.clear();
+  BqsaPlanar method(PlanarVariant::kExact);
+  const Replay run = replay(method, problem);
+  EXPECT_EQ(run.q.size(), 401U);
+  EXPECT_THAT(run.clamped, IsEmpty());
+  EXPECT_LT(run.tip_error, 1e-8);
+}
+
+TEST(BqsaPlanar, KeepsLinkRadiusAndMargin) {
+  for (const auto& [radius, margin] : {std::pair{0.005, 0.0}, {0.0, 0.004}, {0.003, 0.003}}) {
+    Problem problem = planar_7r(200);
+    problem.link_radius = radius;
+    problem.margin = margin;
+    BqsaPlanar method(PlanarVariant::kExact);
+    const Replay run = replay(method, problem);
+    EXPECT_EQ(run.q.size(), 201U) << name_of(run.last.reason);
+    EXPECT_THAT(sampled_hits(problem, run.q, 4, radius + margin), IsEmpty());
+    EXPECT_GT(run.clamped_ticks, 0);
+  }
+}
+
+/// Random arms with one obstacle put on a link that plain tracking would lead into it.
+struct RandomScene {
+  Problem problem;
+  bool valid = false;
+};
+
+RandomScene random_scene(test_support::Generator& generator) {
+  using test_support::uniform;
+  Problem problem = planar_7r(150);
+  problem.obstacles.clear();
+  problem.start = JointVector::NullaryExpr(
+      7, [&](Eigen::Index i) { return uniform(generator, i == 0 ? -1.5 : -0.8, 0.8); });
+  ChainPose pose;
+  problem.chain.forward(problem.start, pose);
+  const Eigen::Vector3d from = pose.tip();
+  const Eigen::Vector3d to =
+      0.6 * from + Eigen::Vector3d(uniform(generator, -0.6, 0.6), uniform(generator, -0.6, 0.6), 0);
+  problem.desired_tip = [from, to](double t) -> Eigen::Vector3d {
+    return from + t / 10 * (to - from);
+  };
+  BqsaPlanar tracking(PlanarVariant::kExact);
+  const Replay nominal = replay(tracking, problem);
+  if (nominal.q.size() != 151U) return {problem};
+  problem.chain.forward(nominal.q[80], pose);
+  const int link = static_cast<int>(uniform(generator, 3, 7.999));
+  const Eigen::Vector2d on_link =
+      pose.p_WO.col(link - 1).head<2>() +
+      uniform(generator, 0.1, 0.9) * (pose.p_WO.col(link) - pose.p_WO.col(link - 1)).head<2>();
+  const double size = uniform(generator, 0.03, 0.12);
+  const Ellipse shape =
+      rotated_ellipse(on_link, {size, uniform(generator, 0.4, 1) * size}, uniform(generator, 0, 3));
+  problem.obstacles = {{"obstacle", embedded(shape)}};
+  for (const JointVector& q : nominal.q) {
+    problem.chain.forward(q, pose);
+    if (shape.level(pose.tip().head<2>()) < 0.2) return {problem};
+  }
+  return {problem, sampled_hits(problem, {problem.start}, 0).empty()};
+}
+
+TEST(BqsaPlanar, OnRandomScenesEveryClaimOfFreedomIsTrueAndMostAreSolved) {
+  test_support::Generator generator(7);
+  int scenes = 0, solved = 0, infeasible = 0;
+  while (scenes < 60) {
+    const RandomScene scene = random_scene(generator);
+    if (!scene.valid) continue;
+    ++scenes;
+    BqsaPlanar method(PlanarVariant::kExact);
+    const Replay run = replay(method, scene.problem);
+    EXPECT_THAT(sampled_hits(scene.problem, run.q, 20), IsEmpty()) << "scene " << scenes;
+    EXPECT_LT(run.tip_error, 1e-3) << "scene " << scenes;
+    EXPECT_LE(run.largest_step, kDefaultMaxStep) << "scene " << scenes;
+    if (run.last.state == TickState::kInfeasible) {
+      ++infeasible;
+      EXPECT_EQ(run.last.q, run.q.back()) << "an infeasible tick must hold the last configuration";
+      EXPECT_NE(run.last.reason, Infeasible::kNot);
+    } else {
+      ++solved;
+    }
+  }
+  EXPECT_EQ(solved + infeasible, 60);
+  EXPECT_GE(solved, 51);
+  RecordProperty("solved", solved);
+}
+
+TEST(BqsaPlanar, RefusesATickWithoutAWayOutAndSaysWhichLinkAndObstacle) {
+  Problem problem = planar_7r();
+  // A wall of obstacles across link 4 leaves no orientation of it within the search range.
+  ChainPose pose;
+  problem.chain.forward(problem.start, pose);
+  const Eigen::Vector2d middle = 0.5 * (pose.p_WO.col(3) + pose.p_WO.col(4)).head<2>();
+  problem.obstacles = {{"boulder", embedded(rotated_ellipse(middle, {0.3, 0.3}, 0))}};
+  BqsaPlanar method(PlanarVariant::kExact);
+  const Replay run = replay(method, problem);
+  EXPECT_EQ(run.q.size(), 1U);
+  EXPECT_EQ(run.last.state, TickState::kInfeasible);
+  EXPECT_EQ(run.last.reason, Infeasible::kNoFreeConfiguration);
+  EXPECT_GT(run.last.link, 0);
+  EXPECT_EQ(run.last.obstacle, 0);
+  EXPECT_EQ(run.last.q, problem.start);
+}
+
+TEST(BqsaPlanar, RefusesAStepBeyondTheVelocityLimitAndBeyondJointLimits) {
+  Problem fast = planar_7r();
+  fast.limits.max_velocity = JointVector::Constant(7, 1e-3);
+  BqsaPlanar method(PlanarVariant::kExact);
+  EXPECT_EQ(replay(method, fast).last.reason, Infeasible::kStepTooLarge);
+
+  Problem narrow = planar_7r();
+  narrow.limits.lower = narrow.start.array() - 0.05;
+  narrow.limits.upper = narrow.start.array() + 0.05;
+  const Replay run = replay(method, narrow);
+  EXPECT_EQ(run.last.reason, Infeasible::kJointLimit);
+  for (const JointVector& q : run.q) EXPECT_TRUE(narrow.within_limits(q));
+}
+
+TEST(BqsaPlanar, ClampingKeepsJointLimitsOrRefuses) {
+  // Limits that plain tracking keeps and that clamping, unlimited, breaks.
+  Problem problem = planar_7r();
+  Problem without = problem;
+  without.obstacles.clear();
+  BqsaPlanar method(PlanarVariant::kExact);
+  problem.limits.lower = problem.limits.upper = problem.start;
+  for (const JointVector& q : replay(method, without).q) {
+    problem.limits.lower = problem.limits.lower.cwiseMin(JointVector(q.array() - 0.01));
+    problem.limits.upper = problem.limits.upper.cwiseMax(JointVector(q.array() + 0.01));
+  }
+  bool unlimited_breaks_them = false;
+  for (const JointVector& q : replay(method, planar_7r()).q) {
+    unlimited_breaks_them = unlimited_breaks_them || !problem.within_limits(q);
+  }
+  EXPECT_TRUE(unlimited_breaks_them);
+  const Replay run = replay(method, problem);
+  EXPECT_GT(run.clamped_ticks, 0);
+  for (const JointVector& q : run.q) EXPECT_TRUE(problem.within_limits(q));
+}
+
+TEST(BqsaPlanar, WarmStepsDoNotAllocate) {
+  for (const PlanarVariant variant : {PlanarVariant::kExact, PlanarVariant::kPaper}) {
+    const Problem problem = planar_7r();
+    BqsaPlanar method(variant);
+    method.prepare(problem);
+    StepInput input;
+    StepOutput output;
+    input.q = problem.start;
+    int clamped = 0;
+    test_support::AllocationGuard guard;
+    for (input.tick = 1; input.tick <= problem.ticks; ++input.tick) {
+      input.t = problem.time(input.tick);
+      input.p_WT_desired = problem.desired_tip(input.t);
+      method.step(input, output);
+      input.q = output.q;
+      clamped += output.state == TickState::kClamped;
+    }
+    EXPECT_EQ(guard.allocations(), 0U);
+    EXPECT_GT(clamped, 50);
+  }
+}
+
+TEST(BqsaPlanar, GivesTheSameTrajectoryEveryTime) {
+  const Problem problem = planar_7r();
+  BqsaPlanar method(PlanarVariant::kExact);
+  const Replay first = replay(method, problem);
+  const WorkCounters first_work = method.counters();
+  const Replay second = replay(method, problem);
+  EXPECT_EQ(first.q, second.q);
+  EXPECT_EQ(first_work.quadratics, method.counters().quadratics);
+  EXPECT_GT(first_work.quadratics, 400U * 14U);
+}
+
+TEST(BqsaPlanar, RefusesSpatialProblems) {
+  BqsaPlanar method(PlanarVariant::kExact);
+  EXPECT_THROW(method.prepare(test_support::puma560_ellipsoid()), std::invalid_argument);
+  EXPECT_EQ(why_not_applicable(bqsa_paper_method().capabilities, test_support::puma560_ellipsoid()),
+            "spatial problems not supported yet");
+}
+
+}  // namespace
+}  // namespace bqsa
