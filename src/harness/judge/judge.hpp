@@ -76,7 +76,7 @@ class Judge {
   /// motion, and pairs read in a run, kVisitsOfAMotion + kVisitsPerMotion * motions. What is still
   /// open when either is used up is `kUndecided`.
   static constexpr long kVisitsOfAMotion = 1L << 16;
-  static constexpr long kVisitsPerMotion = 1L << 12;
+  static constexpr long kVisitsPerMotion = 1L << 13;
 
   /// The problem outlives the judge. Runs the self-test of FCL.
   /// @throws std::runtime_error if FCL fails one of its known hits or misses

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <ostream>
 
 #include "harness/judge/exact_distance.hpp"
 #include "harness/judge/fcl_check.hpp"
@@ -22,8 +23,13 @@ struct AgreementCase {
   bool thick;
 };
 
+std::ostream& operator<<(std::ostream& out, const AgreementCase& agreement) {
+  return out << test_support::name_of(agreement.shape)
+             << (agreement.thick ? "_capsule" : "_segment");
+}
+
 std::string name_of_case(const ::testing::TestParamInfo<AgreementCase>& info) {
-  return test_support::name_of(info.param.shape) + (info.param.thick ? "_capsule" : "_segment");
+  return ::testing::PrintToString(info.param);
 }
 
 class Checkers : public ::testing::TestWithParam<AgreementCase> {};
