@@ -27,7 +27,6 @@ class YamlValue {
   /// @param text  its content
   static YamlValue parse(const std::string& file, const std::string& text);
 
-
   /// Refuses this value.
   [[noreturn]] void fail(const std::string& expected, const std::string& got) const;
 

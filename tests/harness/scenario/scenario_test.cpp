@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 #include <random>
 #include <sstream>
@@ -263,6 +265,20 @@ TEST(Scenario, ThePumaScenariosHaveTheirDocumentedNumbers) {
   }
   EXPECT_EQ(shipped("puma560_wall").problem.obstacles[0].shape.semi_axes(),
             Vector3d(0.0001, 0.1, 10));
+}
+
+TEST(Scenario, TheExampleOfTheDocumentationLoads) {
+  std::ifstream stream(BQSA_SOURCE_DIR "/docs/scenario-format.md");
+  const std::string page{std::istreambuf_iterator<char>(stream), {}};
+  const std::string fence = "```yaml\n";
+  const std::size_t begin = page.find(fence);
+  ASSERT_NE(begin, std::string::npos);
+  const std::size_t end = page.find("```", begin + fence.size());
+  const TestDirectory directory;
+  const Problem problem =
+      directory.load(page.substr(begin + fence.size(), end - begin - fence.size())).problem;
+  EXPECT_EQ(problem.name, "two_links");
+  EXPECT_LT((start_tip(problem) - problem.desired_tip(0)).norm(), 1e-15);
 }
 
 TEST(Scenario, Sha256IsThatOfTheFilesBytes) {
