@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "harness/results/result_store.hpp"
@@ -194,8 +195,10 @@ TEST_F(ProgramRun, ARecordNamesTheCallAndTheBuild) {
 }
 
 TEST_F(ProgramRun, AReaderThatGoesAwayCostsNoResults) {
-  const std::string command = std::string(BQSA_BENCH) + " run " + kPlanar +
-                              " --method none --method bqsa --out " + out_ + " 2>&1 | true";
+  // The reader is gone before the refusal of the first scenario is printed.
+  const std::string command = "(sleep 0.3; " BQSA_BENCH " run " + broken_scenario() + " " +
+                              kPlanar + " --method none --method bqsa --out " + out_ +
+                              ") 2>&1 | true";
   ASSERT_EQ(std::system(command.c_str()), 0);
   EXPECT_EQ(records().size(), 2u);
 }
