@@ -125,12 +125,12 @@ std::vector<ParameterDeclaration> parameters() {
       integer_parameter("m", "-", 240, 3, 1000000, "test points an obstacle, M"),
       choice_parameter("law", {"maciejewski_klein", "gradient_projection"},
                        "what is done with the closest point"),
-      {"influence", "m", 0.06, 1e-6, 10, "radius of the sphere of influence, d_m"},
+      {"influence", "m", 0.05, 1e-6, 10, "radius of the sphere of influence, d_m"},
       {"full_distance", "m", 0.02, 0, 10, "distance at which the gains reach 1, d_o (below d_m)"},
-      {"escape_velocity", "m/s", 0.2, 0, 100, "speed away from the obstacle, v_0"},
-      {"regularization", "m^2", 1e-8, 0, 1, "regularization of the 1-D pseudo-inverse, delta"},
+      {"escape_velocity", "m/s", 0.1, 0, 100, "speed away from the obstacle, v_0"},
+      {"regularization", "m^2", 1e-6, 0, 1, "regularization of the 1-D pseudo-inverse, delta"},
       {"gradient_gain", "rad/(s m^2)", 300, 0, 1e9, "gain of gradient projection, mu"},
-      {"exempt_length", "m", 0.05, 0, 10,
+      {"exempt_length", "m", 0.1, 0, 10,
        "part of the last link, from the tip, that may be near obstacles"},
   };
 }

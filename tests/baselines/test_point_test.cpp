@@ -1,0 +1,98 @@
+#include "baselines/test_point.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/paper_problems.hpp"
+#include "support/replay.hpp"
+
+namespace bqsa::baselines {
+namespace {
+
+using test_support::planar_7r;
+using test_support::Replay;
+using ::testing::IsEmpty;
+
+std::unique_ptr<Method> test_point(
+    const std::vector<std::pair<std::string, std::string>>& settings = {}) {
+  const MethodEntry entry = test_point_method();
+  ParameterValues values(entry.parameters);
+  for (const auto& [name, value] : settings) values.set(name, value);
+  return entry.make(values);
+}
+
+Replay run_on(const Problem& problem, Method& method) {
+  return test_support::replay(static_cast<ReactiveMethod&>(method), problem);
+}
+
+class PlanarScene : public ::testing::TestWithParam<int> {};
+
+TEST_P(PlanarScene, IsFreeWithTheDefaultGains) {
+  const Problem problem = planar_7r(GetParam());
+  const auto method = test_point();
+  const Replay run = run_on(problem, *method);
+  ASSERT_EQ(run.q.size(), static_cast<std::size_t>(problem.ticks + 1));
+  EXPECT_THAT(test_support::sampled_hits(problem, run.q, 4000 / problem.ticks), IsEmpty());
+  EXPECT_LT(run.tip_error, problem.tolerance);
+  EXPECT_NE(run.last.state, TickState::kUnclaimed);
+}
+
+INSTANTIATE_TEST_SUITE_P(Ticks, PlanarScene, ::testing::Values(200, 400, 1000),
+                         ::testing::PrintToStringParamName());
+
+TEST(TestPoint, CountsEveryPairOfTestPoints) {
+  const Problem problem = planar_7r(50);
+  const auto method = test_point({{"n", "9"}, {"m", "20"}, {"exempt_length", "0"}});
+  const Replay run = run_on(problem, *method);
+  const std::size_t steps = run.q.size() - 1 + (run.last.state == TickState::kInfeasible ? 1 : 0);
+  EXPECT_EQ(method->counters().point_pairs, steps * 9 * 20 * 7 * 2);
+}
+
+TEST(TestPoint, FarFromObstaclesItIsPlainTracking) {
+  Problem problem = planar_7r(100);
+  problem.obstacles = {{"far", embedded(rotated_ellipse({20, 20}, {0.1, 0.1}, 0))}};
+  const auto method = test_point();
+  const Replay run = run_on(problem, *method);
+  EXPECT_EQ(run.q.size(), 101U);
+  EXPECT_EQ(run.clamped_ticks, 0);
+}
+
+TEST(TestPoint, BothLawsPushTheLinkAwayAndLeaveTheTipToFirstOrder) {
+  for (const char* law : {"maciejewski_klein", "gradient_projection"}) {
+    // The tip rests; an obstacle stands close beside link 3.
+    Problem problem = planar_7r(400);
+    ChainPose pose;
+    problem.chain.forward(problem.start, pose);
+    const Eigen::Vector3d tip = pose.tip();
+    problem.desired_tip = [tip](double) { return tip; };
+    const Eigen::Vector2d a = pose.p_WO.col(2).head<2>(), b = pose.p_WO.col(3).head<2>();
+    const Eigen::Vector2d along = (b - a).normalized();
+    const Eigen::Vector2d across(-along.y(), along.x());
+    problem.obstacles = {
+        {"ball", embedded(rotated_ellipse(0.5 * (a + b) + 0.06 * across, {0.05, 0.05}, 0))}};
+    const auto distance = [&](const JointVector& q) {
+      problem.chain.forward(q, pose);
+      return static_cast<double>(test_support::DistanceOracle(pose.p_WO.col(2), pose.p_WO.col(3),
+                                                              problem.obstacles[0].shape)
+                                     .distance());
+    };
+    const auto method = test_point({{"law", law}, {"n", "41"}, {"m", "720"}});
+    method->prepare(problem);
+    StepInput input{.tick = 1, .t = problem.dt, .p_WT_desired = tip, .q = problem.start};
+    StepOutput output;
+    static_cast<ReactiveMethod&>(*method).step(input, output);
+    EXPECT_EQ(output.state, TickState::kClamped) << law;
+    EXPECT_GT(distance(output.q), distance(problem.start) + 1e-6) << law;
+    problem.chain.forward(output.q, pose);
+    const double moved = (output.q - problem.start).norm();
+    EXPECT_GT(moved, 1e-4) << law;
+    EXPECT_LT((pose.tip() - tip).norm(), 3 * moved * moved) << law;
+  }
+}
+
+TEST(TestPoint, RefusesAnInfluenceBelowTheFullDistance) {
+  EXPECT_THROW(test_point({{"influence", "0.001"}, {"full_distance", "0.02"}}), ParameterError);
+}
+
+}  // namespace
+}  // namespace bqsa::baselines
