@@ -39,7 +39,7 @@ std::string operating_system() {
 }  // namespace
 
 const BuildInfo& build_info() {
-  static const BuildInfo info{
+  static const BuildInfo kInfo{
       .version = kProgramVersion,
       .commit = kSourceCommit,
       .dirty = kSourceDirty,
@@ -59,7 +59,7 @@ const BuildInfo& build_info() {
                     {"CLI11", kCli11Version},
                     {"fmt", kFmtVersion}},
   };
-  return info;
+  return kInfo;
 }
 
 MachineState machine_state() {
