@@ -30,14 +30,6 @@ Eigen::Matrix<double, Dim, Dim> triangular_unit_map(
   return triangular.template cast<double>();
 }
 
-/// Semi-axes of the outer ellipsoid of the sum with a ball; the axes keep their directions.
-template <int Dim>
-Eigen::Matrix<double, Dim, 1> outer_semi_axes(const Eigen::Matrix<double, Dim, 1>& semi_axes,
-                                              double radius) {
-  const double p = semi_axes.norm() / (std::sqrt(double{Dim}) * radius);
-  return ((1 + 1 / p) * semi_axes.array().square() + radius * radius * (1 + p)).sqrt();
-}
-
 }  // namespace
 
 template <int Dim>
@@ -56,11 +48,6 @@ EllipsoidN<Dim>::EllipsoidN(const Vector& center, const Vector& semi_axes, const
 template <int Dim>
 typename EllipsoidN<Dim>::Matrix EllipsoidN<Dim>::quadratic_form() const {
   return unit_map_.transpose() * unit_map_;
-}
-
-template <int Dim>
-EllipsoidN<Dim> EllipsoidN<Dim>::grown(double offset) const {
-  return {center_, Vector(semi_axes_.array() + offset), rotation_};
 }
 
 Ellipse rotated_ellipse(const Eigen::Vector2d& center, const Eigen::Vector2d& semi_axes,
@@ -93,25 +80,7 @@ Ellipse shadow(const Ellipsoid& ellipsoid, const Eigen::Matrix<double, 2, 3>& se
   return {selector * ellipsoid.center(), svd.singularValues(), rotation};
 }
 
-template <int Dim>
-EllipsoidN<Dim> outer_bound(const EllipsoidN<Dim>& ellipsoid, double radius) {
-  if (!(radius >= 0)) throw std::invalid_argument("outer bound: the radius must not be negative");
-  if (radius == 0) return ellipsoid;
-  return {ellipsoid.center(), outer_semi_axes<Dim>(ellipsoid.semi_axes(), radius),
-          ellipsoid.rotation()};
-}
-
-template <int Dim>
-double outer_bound_excess(const EllipsoidN<Dim>& ellipsoid, double radius) {
-  const EllipsoidN<Dim> outer = outer_bound(ellipsoid, radius);
-  return (outer.semi_axes() - ellipsoid.semi_axes()).maxCoeff() - radius;
-}
-
 template class EllipsoidN<2>;
 template class EllipsoidN<3>;
-template EllipsoidN<2> outer_bound(const EllipsoidN<2>&, double);
-template EllipsoidN<3> outer_bound(const EllipsoidN<3>&, double);
-template double outer_bound_excess(const EllipsoidN<2>&, double);
-template double outer_bound_excess(const EllipsoidN<3>&, double);
 
 }  // namespace bqsa

@@ -47,10 +47,6 @@ class EllipsoidN {
     return (semi_axes_.asDiagonal() * (rotation_.transpose() * n)).norm();
   }
 
-  /// The same ellipsoid with every semi-axis longer by `offset` [m]. This does *not* contain all
-  /// points within `offset` of the ellipsoid; see `outer_bound` for a shape that does.
-  EllipsoidN grown(double offset) const;
-
  private:
   Vector center_;
   Vector semi_axes_;
@@ -79,19 +75,5 @@ Ellipse planar_section(const Ellipsoid& ellipsoid);
 /// accurate.
 /// @throws std::invalid_argument if the rows are not orthonormal
 Ellipse shadow(const Ellipsoid& ellipsoid, const Eigen::Matrix<double, 2, 3>& selector);
-
-/// An ellipsoid that contains every point within `radius` [m] of the given one (their Minkowski sum
-/// with a ball). The outer ellipsoid of least trace in the family Q⁻¹ (1 + 1/p) + r² (1 + p) I,
-/// p = sqrt(tr Q⁻¹ / (Dim r²)) (Kurzhanski and Valyi 1997). `outer_bound_excess` says how far it
-/// sticks out; it is poor for needles and sheets.
-/// @throws std::invalid_argument if the radius is negative or not finite
-template <int Dim>
-EllipsoidN<Dim> outer_bound(const EllipsoidN<Dim>& ellipsoid, double radius);
-
-/// How far `outer_bound` sticks out of the true sum [m]: the Hausdorff distance of the two. It is
-/// attained on a semi-axis, because the difference of their support functions is a convex function
-/// of the ellipsoid's own support.
-template <int Dim>
-double outer_bound_excess(const EllipsoidN<Dim>& ellipsoid, double radius);
 
 }  // namespace bqsa
