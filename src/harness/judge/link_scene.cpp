@@ -37,7 +37,7 @@ std::string contradiction(double exact_clearance, const FclAnswer& fcl, double s
   const double distance = std::max(exact_clearance, 0.0);
   const double difference = std::abs(std::max(fcl.distance, 0.0) - distance);
   const double tolerance = kFclTolerance + kFclRelativeTolerance * (size + distance);
-  if (std::isfinite(fcl.distance) && difference <= tolerance) return {};
+  if (difference <= tolerance) return {};
   return fmt::format("FCL clearance {:.9e} m, exact clearance {:.9e} m", fcl.distance,
                      exact_clearance);
 }

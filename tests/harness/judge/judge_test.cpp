@@ -196,6 +196,16 @@ TEST(Judge, TouchingIsFreeAndFlagged) {
   EXPECT_THAT(deep.judge().failures, ElementsAre(Failure::kCollision));
 }
 
+TEST(Judge, TouchingAtTheStartIsRememberedWhenOtherObstaclesComeNear) {
+  TurningArm run;
+  const double reach = TurningArm::tip(0).norm();
+  run.add_ball(TurningArm::tip(0).normalized() * (reach + 0.1), 0.1);
+  run.add_ball(TurningArm::tip(20).normalized() * (reach + 0.105), 0.1);
+  const Judgement judgement = run.judge();
+  EXPECT_TRUE(judgement.success());
+  EXPECT_TRUE(judgement.touching);
+}
+
 TEST(Judge, LinkRadiusCountsAsMuchAsTheObstacle) {
   for (const double gap : {2e-6, -2e-6}) {
     TurningArm run;
