@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "support/replay.hpp"
 #include "support/sampling.hpp"
 
@@ -89,6 +91,19 @@ TEST(MotionCertificate, RefusesAMotionThatTunnelsThroughAThinSheet) {
   EXPECT_EQ(result.link, 1);
   EXPECT_EQ(result.obstacle, 0);
   EXPECT_TRUE(certificate.certify(above, further).certified);
+}
+
+TEST(MotionCertificate, SeesTheArcBeyondTheChord) {
+  // The tip swings through the ball; the hull of both end positions stays clear of it.
+  Problem problem{.name = "arc", .chain = SerialChain(planar_chain({1.0}))};
+  problem.obstacles = {{"ball", Ellipsoid({0.9, 0, 0}, {0.05, 0.05, 0.05})}};
+  WorkCounters counters;
+  MotionCertificate certificate;
+  certificate.assign(problem, 0, counters);
+  const double eighth = std::numbers::pi / 4;
+  EXPECT_FALSE(
+      certificate.certify(JointVector::Constant(1, -eighth), JointVector::Constant(1, eighth))
+          .certified);
 }
 
 TEST(MotionCertificate, CertifiesAnythingWithoutObstacles) {
