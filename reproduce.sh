@@ -15,7 +15,11 @@ tools/quiet.sh $logs/build.log cmake --build --preset release --target bqsa-benc
 
 rm -rf "$out"
 program=build/release/src/harness/program/bqsa-bench
-"$program" run scenarios/*.yaml --out "$out"
+# All methods as they are, and the test-point method once more with the gains and the density of points
+# that it needs to pass the PUMA 560 scenes.
+"$program" run scenarios/*.yaml --out "$out" \
+  --method none --method bqsa --method bqsa_paper --method test_point \
+  --method test_point:law=gradient_projection,n=50,m=2000,influence=0.08,gradient_gain=600
 
 seconds=$((SECONDS - start))
 echo

@@ -117,6 +117,7 @@ void check_tip(const Problem& problem, const JudgeKinematics& kinematics,
   for (std::size_t k = 1; k < rows.size(); ++k) {
     const int tick = static_cast<int>(k);
     at_ticks.add(error(rows[k], tick), tick);
+    if (k == 1) continue;  // this motion leads from the start onto the path
     for (int sample = 1; sample <= kTipSamples; ++sample) {
       const double s = static_cast<double>(sample) / (kTipSamples + 1);
       between_ticks.add(error(between(rows[k - 1], rows[k], s), tick - 1 + s), tick);

@@ -57,7 +57,7 @@ struct Judgement {
   double clearance = 0;  ///< the same at ticks and at all configurations visited in between [m]
 
   TipError at_ticks;          ///< counted from tick 1
-  TipError between_ticks;     ///< sampled on the straight joint motion, against x_d at that time
+  TipError between_ticks;     ///< sampled on the straight joint motions after tick 1 against x_d
   double start_error = 0;     ///< tip error of row 0 [m]
   double max_joint_step = 0;  ///< largest joint step of one tick [rad]
   int max_joint_step_tick = 0;

@@ -22,8 +22,7 @@ constexpr std::string_view kLegend =
 Success, decided from the joint trajectory alone: every row present and finite, from the given start; no link in an
 obstacle at or between ticks; largest tip error at ticks within the tolerance; joint limits and velocity limit (default
 15 deg a tick) kept. Self-collision is not judged.
-error       largest distance of the tip from x_d(t), at ticks and on the straight joint motions between them, of which
-            the first leads from the start onto the path
+error       largest distance of the tip from x_d(t), from tick 1 on; between: on the straight joint motions between ticks
 clearance   smallest distance of a link to an obstacle, at or between ticks; negative inside; T: within 0.001 mm
 max step    largest step of one joint in one tick
 time        wall clock of a tick, the first left out; only for successes

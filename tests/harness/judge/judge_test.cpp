@@ -127,6 +127,18 @@ TEST(Judge, ErrorsOfTheStartAndBetweenTicksAreReportedButNoFailure) {
   EXPECT_LT(judgement.at_ticks.max, 1e-12);
 }
 
+TEST(Judge, TheMotionFromTheStartOntoThePathIsNoTrackingError) {
+  TurningArm run;
+  run.problem.desired_tip = [](double t) {
+    const double tick = t / 0.01;
+    return Vector3d(TurningArm::tip(tick) + Vector3d(0, tick < 1 - 1e-6 ? 0.01 : 0, 0));
+  };
+  const Judgement judgement = run.judge();
+  EXPECT_NEAR(judgement.start_error, 0.01, 1e-12);
+  EXPECT_LT(judgement.at_ticks.max, 1e-12);
+  EXPECT_LT(judgement.between_ticks.max, 1e-3);
+}
+
 TEST(Judge, ALinkInAnObstacleIsNamed) {
   TurningArm run;
   run.add_ball({-1, 0, 0}, 0.3);
