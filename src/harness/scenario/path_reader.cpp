@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 constexpr double kMinDuration = 1e-3;  // [s]
 constexpr double kMaxDuration = 1e6;   // [s]
 constexpr int kMaxTicks = 1'000'000;
-constexpr std::size_t kMaxWaypointBytes = std::size_t{1} << 23;
+constexpr std::size_t kMaxWaypoints = 100'000;
+constexpr std::size_t kMaxWaypointBytes = 100 * kMaxWaypoints;  // four numbers of all digits a line
 
 Arc read_ellipse_arc(const YamlValue& value, const Units& units, int dimension) {
   if (dimension != 2) {
@@ -100,6 +101,10 @@ Polyline read_waypoints(const YamlValue& value, const Units& units, int dimensio
     throw InputError(fmt::format("{}:{}: {}: expected {}, got {}", file.string(),
                                  NumericTable::line(row), column, expected, got));
   };
+  if (table.rows() > kMaxWaypoints) {
+    fail(kMaxWaypoints, "t", fmt::format("at most {} waypoints", kMaxWaypoints),
+         std::to_string(table.rows()));
+  }
   if (table.rows() < 2) {
     fail(table.rows(), "t", "2 or more waypoints", std::to_string(table.rows()));
   }

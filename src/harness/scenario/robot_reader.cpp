@@ -25,6 +25,7 @@ ChainDescription read_planar_chain(const YamlValue& value, const Units& units) {
   const std::vector<YamlValue> elements = links.list("a list of link lengths");
   expect_joint_count(links, elements.size());
   std::vector<double> lengths;
+  lengths.reserve(elements.size());
   for (const YamlValue& element : elements) lengths.push_back(units.positive_length(element));
   Eigen::Vector3d base = Eigen::Vector3d::Zero();
   if (const auto given = value.find("base")) base = units.point(*given, 2);

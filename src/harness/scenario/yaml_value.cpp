@@ -97,8 +97,8 @@ bool has_control_character(const std::string& text) {
 
 }  // namespace
 
-YamlValue::YamlValue(std::string file, YAML::Node node, int line, std::string key)
-    : file_(std::move(file)), node_(std::move(node)), line_(line), key_(std::move(key)) {}
+YamlValue::YamlValue(std::string file, const YAML::Node& node, int line, std::string key)
+    : file_(std::move(file)), node_(node), line_(line), key_(std::move(key)) {}
 
 YamlValue YamlValue::parse(const std::string& file, const std::string& text) {
   check_yaml(file, text);

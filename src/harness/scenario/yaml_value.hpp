@@ -73,7 +73,7 @@ class YamlValue {
                      std::initializer_list<std::string_view> later) const;
 
  private:
-  YamlValue(std::string file, YAML::Node node, int line, std::string key);
+  YamlValue(std::string file, const YAML::Node& node, int line, std::string key);
   YamlValue child(const YAML::Node& node, std::string key) const;
   std::string path_of(const std::string& key) const;
   std::string found() const;

@@ -165,6 +165,9 @@ TEST(BadScenarios, WaypointFilesAreRefusedWithTheirOwnLine) {
   EXPECT_EQ(refusal(directory, scenario),
             "s.yaml:15: task.timing.profile: expected linear, since waypoints carry their own "
             "times, got quintic");
+  std::string many = "t,x,y\n";
+  for (int i = 0; i <= 100'000; ++i) many += fmt::format("{},1,1.5\n", i * 2e-5);
+  EXPECT_EQ(refused(many), "way.csv:100002: t: expected at most 100000 waypoints, got 100001");
   std::filesystem::remove(directory.path() / "way.csv");
   EXPECT_EQ(refusal(directory, text), "way.csv: expected a file, got nothing there");
   std::filesystem::create_symlink("/etc/passwd", directory.path() / "way.csv");
