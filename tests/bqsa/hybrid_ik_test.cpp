@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -124,10 +126,11 @@ TEST_P(HybridIk, WithoutWeightsIsThePseudoInverse) {
   for (int i = 0; i < kCases; ++i) {
     Case c = random_case(0.05, 1);
     const MatrixXd J = c.J;
-    const MatrixXd plus = J.completeOrthogonalDecomposition().pseudoInverse();
+    const MatrixXd gram = J * J.transpose();
+    const MatrixXd plus = J.transpose() * gram.fullPivLu().inverse();
     const VectorXd expected =
         plus * c.x_dot + (MatrixXd::Identity(J.cols(), J.cols()) - plus * J) * c.phi;
-    ASSERT_LT((solve(c, undamped()).q_dot - expected).norm(), 1e-10) << "case " << i;
+    ASSERT_LT((solve(c, undamped()).q_dot - expected).norm(), 1e-9) << "case " << i;
   }
 }
 
