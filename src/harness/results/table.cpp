@@ -22,7 +22,7 @@ constexpr std::string_view kLegend =
 Success, decided from the joint trajectory alone: every row present and finite, from the given start; no link in an
 obstacle at or between ticks; largest tip error at ticks within the tolerance; joint limits and velocity limit (default
 15 deg a tick) kept. Self-collision is not judged.
-error       largest distance of the tip from x_d(t), from tick 1 on; between: on the straight joint motions between ticks
+error       largest distance of the tip from x_d(t), from tick 1 on; between: on the straight joint motions in between
 clearance   smallest distance of a link to an obstacle, at or between ticks; negative inside; T: within 0.001 mm
 max step    largest step of one joint in one tick
 time        wall clock of a tick, the first left out; only for successes
@@ -152,7 +152,11 @@ std::string notes_of(const TableRow& row) {
                  {});
   }
   const std::vector<std::string> wrong = verdicts(row);
-  if (wrong.size() > 1) text += note("also:", {wrong.begin() + 1, wrong.end()});
+  std::vector<std::string> also;
+  for (std::size_t i = 1; i < wrong.size(); ++i) {
+    if (wrong[i] != row.claim) also.push_back(wrong[i]);  // the claim has its own line below
+  }
+  if (!also.empty()) text += note("also:", also);
   if (!row.disagreement.empty()) text += note("judges:", {row.disagreement});
   if (gave_up(row)) {
     text += note(fmt::format("{}: {}", row.claim, row.claim_detail), {});
@@ -168,8 +172,20 @@ std::string notes_of(const TableRow& row) {
     text += note(fmt::format("guard fired in {} of {} ticks", row.guard_fired, row.ticks), {});
   }
   if (!row.changed.empty()) text += note("with", {row.changed});
-  if (!row.against_times.empty()) text += note("~ times indicative only:", row.against_times);
   return text;
+}
+
+/// What keeps the times of any row from counting, each once.
+std::string time_notes(const std::vector<TableRow>& rows) {
+  std::vector<std::string> reasons;
+  for (const TableRow& row : rows) {
+    for (const std::string& reason : row.against_times) {
+      if (std::find(reasons.begin(), reasons.end(), reason) == reasons.end()) {
+        reasons.push_back(reason);
+      }
+    }
+  }
+  return reasons.empty() ? "" : note("~ times only indicative:", reasons);
 }
 
 using Widths = std::array<std::size_t, kColumns.size()>;
@@ -244,6 +260,7 @@ std::string render_table(const std::vector<TableRow>& all_rows) {
     text += line_of(' ', heads, widths) + line_of(' ', units, widths) + block + '\n';
   }
   text += kLegend;
+  text += time_notes(rows);
   for (const std::string& build : distinct(rows, [](const TableRow& row) { return row.build; })) {
     text += "made by " + build + '\n';
   }

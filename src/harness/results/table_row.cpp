@@ -74,6 +74,7 @@ void read_claim(const Json& claimed, TableRow& row) {
     const int tick = claimed.at("tick").get<int>();
     if (tick > 0) row.claim += fmt::format(" at tick {}", tick);
     row.claim_detail = claimed.at("message").get<std::string>();
+    std::replace(row.claim_detail.begin(), row.claim_detail.end(), '\n', ' ');
   }
 }
 

@@ -169,6 +169,7 @@ TEST_F(PairRun, AThrowingMethodIsRecordedAndTheNextRunGoesOn) {
   EXPECT_EQ(first["claimed"]["tick"], 1);
   EXPECT_EQ(first["claimed"]["message"], "no \"way\"\nout");
   EXPECT_EQ(first["judged"]["success"], false);
+  EXPECT_EQ(parse_run_record(lines[0].text).claim_detail, "no \"way\" out");
   EXPECT_EQ(Json::parse(lines[1].text)["method"]["name"], "lying");
 }
 
