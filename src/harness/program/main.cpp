@@ -1,3 +1,4 @@
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -6,8 +7,22 @@
 
 #include "harness/program/command_line.hpp"
 
+namespace {
+
+/// A file opened later takes the lowest free descriptor: where a standard stream is closed, what is
+/// printed would go into the results.
+void fill_closed_standard_streams() {
+  for (int file = STDIN_FILENO; file <= STDERR_FILENO; ++file) {
+    if (fcntl(file, F_GETFD) < 0 && open("/dev/null", O_RDWR) != file)
+      _exit(bqsa::harness::kBadInput);
+  }
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   using namespace bqsa::harness;
+  fill_closed_standard_streams();
   // A reader that goes away (`| head`) must not end runs that are under way.
   std::signal(SIGPIPE, SIG_IGN);
   const Console console{std::cout, std::cerr, isatty(STDERR_FILENO) != 0};

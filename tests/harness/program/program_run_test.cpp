@@ -194,6 +194,16 @@ TEST_F(ProgramRun, ARecordNamesTheCallAndTheBuild) {
   EXPECT_EQ(records().at(0)["scenario"]["sha256"].get<std::string>().size(), 64u);
 }
 
+TEST_F(ProgramRun, ClosedStandardStreamsDoNotPrintIntoTheResults) {
+  const std::string command = BQSA_BENCH " run " + broken_scenario() + " " + kPlanar +
+                              " --method none --method bqsa --out " + out_;
+  const int status = std::system((command + " <&- >&- 2>&-").c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 2) << "one scenario is broken";
+  EXPECT_EQ(records().size(), 2u);
+  EXPECT_EQ(run_bqsa_bench({"show", out_}).status, 0);
+  ASSERT_EQ(std::system((BQSA_BENCH " list >&-")), 0);
+}
+
 TEST_F(ProgramRun, AReaderThatGoesAwayCostsNoResults) {
   // The reader is gone before the refusal of the first scenario is printed.
   const std::string command = "(sleep 0.3; " BQSA_BENCH " run " + broken_scenario() + " " +
