@@ -56,13 +56,15 @@ class TestPoint final : public ReactiveMethod {
       const ClosestPair closest = search_.search(pose_, j);
       if (closest.link < 0 || closest.distance >= settings_.influence) continue;
       q_dot += avoidance(closest, tracking);
-      record(closest, j, output);
+      const Link& link = chain.links()[static_cast<std::size_t>(closest.link)];
+      record_clamp({.link = link.number, .obstacle = j}, output);
     }
 
     const JointVector q = input.q + problem_->dt * q_dot;
     const Infeasible forbidden = forbidden_step(*problem_, input.q, q);
     if (forbidden != Infeasible::kNot) return hold(input.q, forbidden, 0, -1, output);
     output.q = q;
+    output.state = TickState::kUnclaimed;  // finitely many points, before the motion, prove nothing
   }
 
  private:
@@ -96,19 +98,6 @@ class TestPoint final : public ReactiveMethod {
     return alpha * wanted / (j0.dot(P_j0) + settings_.regularization) * P_j0;
   }
 
-  /// What the method can know: a link it pushes, or one whose test point is inside.
-  void record(const ClosestPair& closest, int obstacle, StepOutput& output) const {
-    const Link& link = problem_->chain.links()[static_cast<std::size_t>(closest.link)];
-    if (closest.distance < 0) {
-      output.state = TickState::kUnclaimed;
-    } else if (output.state == TickState::kFree) {
-      output.state = TickState::kClamped;
-    }
-    if (output.clamp_count < StepOutput::kMaxClamps) {
-      output.clamps[static_cast<std::size_t>(output.clamp_count++)] = {link.number, obstacle};
-    }
-  }
-
   Settings settings_;
   const Problem* problem_ = nullptr;
   ClosestTestPoints search_;
@@ -121,14 +110,14 @@ class TestPoint final : public ReactiveMethod {
 
 std::vector<ParameterDeclaration> parameters() {
   return {
-      integer_parameter("n", "-", 25, 2, 100000, "test points a link, N"),
-      integer_parameter("m", "-", 240, 3, 1000000, "test points an obstacle, M"),
+      integer_parameter("n", "-", 25, 2, 10000, "test points a link, N"),
+      integer_parameter("m", "-", 240, 3, 100000, "test points an obstacle, M"),
       choice_parameter("law", {"maciejewski_klein", "gradient_projection"},
                        "what is done with the closest point"),
       {"influence", "m", 0.05, 1e-6, 10, "radius of the sphere of influence, d_m"},
       {"full_distance", "m", 0.02, 0, 10, "distance at which the gains reach 1, d_o (below d_m)"},
       {"escape_velocity", "m/s", 0.1, 0, 100, "speed away from the obstacle, v_0"},
-      {"regularization", "m^2", 1e-6, 0, 1, "regularization of the 1-D pseudo-inverse, delta"},
+      {"regularization", "m^2", 1e-6, 1e-12, 1, "regularization of the 1-D pseudo-inverse, delta"},
       {"gradient_gain", "rad/(s m^2)", 300, 0, 1e9, "gain of gradient projection, mu"},
       {"exempt_length", "m", 0.1, 0, 10,
        "part of the last link, from the tip, that may be near obstacles"},

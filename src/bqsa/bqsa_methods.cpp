@@ -35,6 +35,42 @@ class Bqsa final : public ReactiveMethod {
   std::unique_ptr<ReactiveMethod> variant_;
 };
 
+/// `bqsa` declares the corrections besides what all variants do.
+std::vector<ParameterDeclaration> exact_parameters() {
+  const BqsaSettings defaults;
+  std::vector<ParameterDeclaration> parameters = bqsa_parameters(defaults);
+  parameters.push_back(
+      integer_parameter("corrections", "-", defaults.corrections, 1, 100,
+                        "Newton corrections of the predictor's tip error, at most"));
+  parameters.push_back({"tip_tolerance", "m", defaults.tip_tolerance, 1e-12, 1e-2,
+                        "tip error at which the corrections stop"});
+  return parameters;
+}
+
+std::unique_ptr<Method> make_exact(const ParameterValues& values) {
+  BqsaSettings settings;
+  read_bqsa_parameters(values, settings);
+  settings.corrections = values.integer("corrections");
+  settings.tip_tolerance = values.number("tip_tolerance");
+  return std::make_unique<Bqsa>(settings);
+}
+
+/// `bqsa_paper` declares the weight of clamped joints besides what all variants do.
+std::vector<ParameterDeclaration> paper_parameters() {
+  const BqsaSettings defaults = default_settings(PlanarVariant::kPaper);
+  std::vector<ParameterDeclaration> parameters = bqsa_parameters(defaults);
+  parameters.push_back({"clamped_weight", "-", defaults.clamped_weight, 1, 1e12,
+                        "weight of the joints that must not move"});
+  return parameters;
+}
+
+std::unique_ptr<Method> make_paper(const ParameterValues& values) {
+  BqsaSettings settings = default_settings(PlanarVariant::kPaper);
+  read_bqsa_parameters(values, settings);
+  settings.clamped_weight = values.number("clamped_weight");
+  return std::make_unique<BqsaPlanar>(PlanarVariant::kPaper, settings);
+}
+
 }  // namespace
 
 MethodEntry bqsa_method() {
@@ -42,23 +78,17 @@ MethodEntry bqsa_method() {
           .summary = "backward quadratic search, exact variant, planar or 3-D by the problem",
           .source = kSource,
           .capabilities = {.planar = true, .spatial = true, .link_radius = true, .margin = true},
-          .parameters = bqsa_parameters({}),
-          .make = [](const ParameterValues& values) {
-            return std::make_unique<Bqsa>(bqsa_settings(values));
-          }};
+          .parameters = exact_parameters(),
+          .make = make_exact};
 }
 
 MethodEntry bqsa_paper_method() {
-  BqsaSettings as_the_paper;
-  as_the_paper.settling = 0;
   return {.name = "bqsa_paper",
           .summary = "backward quadratic search as the paper steps, planar",
           .source = kSource,
           .capabilities = {.planar = true, .link_radius = true, .margin = true},
-          .parameters = bqsa_parameters(as_the_paper),
-          .make = [](const ParameterValues& values) {
-            return std::make_unique<BqsaPlanar>(PlanarVariant::kPaper, bqsa_settings(values));
-          }};
+          .parameters = paper_parameters(),
+          .make = make_paper};
 }
 
 }  // namespace bqsa

@@ -1,9 +1,6 @@
 #include "bqsa/bqsa_spatial.hpp"
 
-#include <algorithm>
 #include <stdexcept>
-
-#include "bqsa/tip_closure.hpp"
 
 namespace bqsa {
 namespace {
@@ -18,50 +15,14 @@ constexpr double kVanishing = 1e-6;
 
 void BqsaSpatial::prepare(const Problem& problem) {
   if (problem.dimension() != 3) throw std::invalid_argument("spatial BQSA needs a spatial arm");
-  problem_ = &problem;
-  counters_ = {};
+  BackwardSearch::prepare(problem);
   obstacles_.assign(problem.obstacles, counters_);
-  certificate_.assign(problem, problem.link_radius + problem.margin, counters_);
-}
-
-void BqsaSpatial::step(const StepInput& input, StepOutput& output) {
-  output = {};
-
-  // 1, 2: predictor
-  if (!move(input, input.q, JointVector::Zero(problem_->chain.joints()))) {
-    return hold(input.q, Infeasible::kDiverged, 0, -1, output);
-  }
-  const JointVector q_predicted = q_;
-  const Infeasible forbidden = forbidden_step(*problem_, input.q, q_predicted);
-  if (forbidden != Infeasible::kNot) return hold(input.q, forbidden, 0, -1, output);
-
-  double distance = settings_.safety_offset;
-  MotionCertificate::Result motion;
-  for (int attempt = 0; attempt <= settings_.retries; ++attempt, distance *= 2) {
-    obstacles_.keep(problem_->link_radius + problem_->margin + distance);
-    output.clamp_count = 0;
-    q_ = q_predicted;
-    problem_->chain.forward(q_, pose_);
-    ++counters_.kinematics;
-    const Infeasible reason = search_backward(input, output);  // 3, 4, 5
-    if (reason != Infeasible::kNot) {
-      if (!motion.certified) break;
-      return hold(input.q, reason, output.link, output.obstacle, output);
-    }
-    motion = certificate_.certify(input.q, q_);  // 6
-    if (motion.certified) {
-      output.q = q_;
-      output.state = output.clamp_count > 0 ? TickState::kClamped : TickState::kFree;
-      return;
-    }
-  }
-  hold(input.q, Infeasible::kNoFreeMotion, motion.link, motion.obstacle, output);
 }
 
 /// From the tip to the base, until a whole sweep finds every link free.
-Infeasible BqsaSpatial::search_backward(const StepInput& input, StepOutput& output) {
+Infeasible BqsaSpatial::free_links(const StepInput& input, StepOutput& output) {
   const std::span<const Link> links = problem_->chain.links();
-  for (int sweep = 0; sweep < kMaxSweeps; ++sweep) {
+  for (int sweep = 0;; ++sweep) {
     bool all_free = true;
     for (std::size_t k = links.size(); k-- > 0;) {
       const int obstacle = obstacles_.first_hit(pose_, links[k]);
@@ -69,12 +30,9 @@ Infeasible BqsaSpatial::search_backward(const StepInput& input, StepOutput& outp
       all_free = false;
       output.link = links[k].number;
       output.obstacle = obstacle;
-      Clamp clamp{links[k].number, obstacle, problem_->chain.joints()};
-      const Infeasible reason = free_link(input, links[k], clamp);
+      if (sweep == kMaxSweeps) return Infeasible::kNoFreeConfiguration;
+      const Infeasible reason = free_link(input, links[k], output);
       if (reason != Infeasible::kNot) return reason;
-      if (output.clamp_count < StepOutput::kMaxClamps) {
-        output.clamps[static_cast<std::size_t>(output.clamp_count++)] = clamp;
-      }
     }
     if (all_free) {
       output.link = 0;
@@ -82,30 +40,37 @@ Infeasible BqsaSpatial::search_backward(const StepInput& input, StepOutput& outp
       return Infeasible::kNot;
     }
   }
-  return Infeasible::kNoFreeConfiguration;
 }
 
 /// Joints clamping: moves the arm along its self-motions until the link is free of all obstacles.
-Infeasible BqsaSpatial::free_link(const StepInput& input, const Link& link, Clamp& clamp) {
+Infeasible BqsaSpatial::free_link(const StepInput& input, const Link& link, StepOutput& output) {
   const JointVector q_start = q_;
+  const int first_clamp = output.clamp_count;
+  int increments = 0;
+  int recorded = -1;  // the last obstacle recorded
   JointVector phi;
-  int obstacle = clamp.obstacle;
-  while (obstacle >= 0) {
+  for (int obstacle = obstacles_.first_hit(pose_, link); obstacle >= 0;) {
+    if (obstacle > recorded) {
+      record_clamp({link.number, obstacle, problem_->chain.joints()}, output);
+      recorded = obstacle;
+    }
     if (!clamping_velocity(link, obstacle, phi)) return Infeasible::kNoFreeConfiguration;
     const JointVector colliding = q_;
     const JointVector change = settings_.increment / phi.cwiseAbs().maxCoeff() * phi;
-    if (!move(input, colliding, change)) return Infeasible::kDiverged;
-    ++counters_.iterations;
-    ++clamp.increments;
-    clamp.offset = (q_ - q_start).cwiseAbs().maxCoeff();
-    // The way travelled, not the way from the start, so that a link that moves to and fro ends too.
-    if (clamp.increments * settings_.increment > settings_.search_range) {
+    // The way travelled counts, not the way from the start, so that a link that moves to and fro ends too.
+    if (++increments * settings_.increment > settings_.search_range || !take_increment()) {
       return Infeasible::kNoFreeConfiguration;
     }
+    if (!move(input, colliding, change)) return Infeasible::kDiverged;
     const Infeasible forbidden = forbidden_step(*problem_, input.q, q_);
     if (forbidden != Infeasible::kNot) return forbidden;
     obstacle = obstacles_.first_hit(pose_, link);
     if (obstacle < 0) settle(input, link, colliding, change);
+  }
+  for (int c = first_clamp; c < output.clamp_count; ++c) {
+    Clamp& clamp = output.clamps[static_cast<std::size_t>(c)];
+    clamp.offset = (q_ - q_start).cwiseAbs().maxCoeff();
+    clamp.increments = c == first_clamp ? increments : 0;
   }
   return Infeasible::kNot;
 }
@@ -136,10 +101,8 @@ bool BqsaSpatial::clamping_velocity(const Link& link, int obstacle, JointVector&
 /// q_ = from + change, then corrected until the tip is on its path. False if it stays off it.
 bool BqsaSpatial::move(const StepInput& input, const JointVector& from, const JointVector& change) {
   q_ = from + change;
-  problem_->chain.forward(q_, pose_);
-  ++counters_.kinematics;
-  return close_tip(problem_->chain, input.p_WT_desired, problem_->dt, settings_, q_, pose_,
-                   counters_) <= problem_->tolerance;
+  forward();
+  return correct_tip(input);
 }
 
 /// Takes back as much of the last increment as leaves the link free.
@@ -150,7 +113,8 @@ void BqsaSpatial::settle(const StepInput& input, const Link& link, const JointVe
   double free = 1;
   for (int halving = 0; halving < settings_.settling; ++halving) {
     const double middle = 0.5 * (hit + free);
-    if (move(input, colliding, middle * change) && obstacles_.first_hit(pose_, link) < 0) {
+    if (move(input, colliding, middle * change) && obstacles_.first_hit(pose_, link) < 0 &&
+        forbidden_step(*problem_, input.q, q_) == Infeasible::kNot) {
       q_free = q_;
       free = middle;
     } else {
@@ -158,8 +122,7 @@ void BqsaSpatial::settle(const StepInput& input, const Link& link, const JointVe
     }
   }
   q_ = q_free;
-  problem_->chain.forward(q_, pose_);
-  ++counters_.kinematics;
+  forward();
 }
 
 }  // namespace bqsa

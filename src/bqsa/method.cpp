@@ -15,11 +15,18 @@ std::string why_not_applicable(const Capabilities& capabilities, const Problem& 
 
 void hold(const JointVector& q_last, Infeasible reason, int link, int obstacle,
           StepOutput& output) {
+  output.clamp_count = 0;
+  output.guard_fired = false;
   output.q = q_last;
   output.state = TickState::kInfeasible;
   output.reason = reason;
   output.link = link;
   output.obstacle = obstacle;
+}
+
+void record_clamp(const Clamp& clamp, StepOutput& output) {
+  if (output.clamp_count == StepOutput::kMaxClamps) return;
+  output.clamps[static_cast<std::size_t>(output.clamp_count++)] = clamp;
 }
 
 Infeasible forbidden_step(const Problem& problem, const JointVector& q_last, const JointVector& q) {

@@ -20,8 +20,8 @@ namespace bqsa {
 struct Capabilities {
   bool planar = false;       ///< problems of dimension 2
   bool spatial = false;      ///< problems of dimension 3
-  bool link_radius = false;  ///< keeps links of positive radius free
-  bool margin = false;       ///< keeps the problem's margin
+  bool link_radius = false;  ///< takes problems whose links have a radius
+  bool margin = false;       ///< takes problems that ask for a margin
 };
 
 /// Why a method does not apply to a problem; empty if it does.
@@ -38,10 +38,10 @@ enum class TickState {
 /// Why a tick was infeasible.
 enum class Infeasible {
   kNot,
-  kNoFreeConfiguration,  ///< no self-motion within the search range frees the link
-  kNoFreeMotion,         ///< free configurations exist, but no certified motion to one of them
-  kStepTooLarge,         ///< the predicted motion exceeds a joint's largest step per tick
-  kJointLimit,           ///< the predicted configuration exceeds a joint limit
+  kNoFreeConfiguration,  ///< the search found no self-motion that frees the link
+  kNoFreeMotion,         ///< a free configuration was found, but no certified motion to it
+  kStepTooLarge,         ///< the motion exceeds a joint's largest step per tick
+  kJointLimit,           ///< the motion ends beyond a joint limit
   kDiverged,             ///< a correction did not converge (singular arm, or path out of reach)
 };
 
@@ -52,7 +52,7 @@ struct Clamp {
   int anchor = 0;    ///< a: links 1 .. a moved; for spatial methods the number of joints
   double offset =
       0;  ///< how far: turn of the link (planar) or largest joint change (spatial) [rad]
-  int increments = 0;  ///< clamping increments tried
+  int increments = 0;  ///< clamping increments tried; of obstacles cleared together, with the first
 };
 
 struct StepInput {
@@ -77,6 +77,9 @@ struct StepOutput {
 
 /// Ends a tick without a motion: the arm holds `q_last`, its last safe configuration.
 void hold(const JointVector& q_last, Infeasible reason, int link, int obstacle, StepOutput& output);
+
+/// Adds a clamp to those of the tick; beyond kMaxClamps they are not kept.
+void record_clamp(const Clamp& clamp, StepOutput& output);
 
 /// Why the step of one tick from q_last to q may not be made: kJointLimit, kStepTooLarge or kNot.
 Infeasible forbidden_step(const Problem& problem, const JointVector& q_last, const JointVector& q);

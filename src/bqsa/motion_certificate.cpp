@@ -89,19 +89,20 @@ bool MotionCertificate::separated(const Part& part, const Pair& pair) const {
   const Eigen::Vector3d end0 = corner(part.pose0, link.end);
   const Eigen::Vector3d end1 = corner(part.pose1, link.end);
 
-  const Eigen::Vector3d start = 0.5 * (start0 + start1);
-  const Eigen::Vector3d end = 0.5 * (end0 + end1);
-  const double t = vertex(polar_form<double, 3>(start, end));
-  const Eigen::Vector3d u = start + t * (end - start);
   ++counters_->quadratics;
 
   const double h = part.s1 - part.s0;
   const double sag = h * h / 8 *
                      std::max(acceleration_[static_cast<std::size_t>(link.start)],
                               acceleration_[static_cast<std::size_t>(link.end)]);
-  const double nearest =
-      std::min({u.dot(start0), u.dot(start1), u.dot(end0), u.dot(end1)}) - u.norm();
-  return nearest > (sag + clearance_) * (shape.unit_map().transpose() * u).norm();
+  const auto plane_of = [&](const Eigen::Vector3d& start, const Eigen::Vector3d& end) {
+    const Eigen::Vector3d u = start + vertex(polar_form<double, 3>(start, end)) * (end - start);
+    const double nearest =
+        std::min({u.dot(start0), u.dot(start1), u.dot(end0), u.dot(end1)}) - u.norm();
+    return nearest > (sag + clearance_) * (shape.unit_map().transpose() * u).norm();
+  };
+  return plane_of(0.5 * (start0 + start1), 0.5 * (end0 + end1)) || plane_of(start0, end0) ||
+         plane_of(start1, end1);
 }
 
 }  // namespace bqsa

@@ -18,15 +18,16 @@ namespace bqsa {
 ///     sag = A h² / 8
 ///
 /// of the chord between its two positions at the ends of that part, A a bound on its acceleration
-/// d²P/ds². So the link sweeps no more than the convex hull of its four corners, fattened by sag.
-/// With u the vertex of the link's mean position in unit coordinates (segment_test.hpp), the plane
-/// through the ellipsoid's supporting point with normal Tᵀu separates that hull from the ellipsoid,
-/// with `clearance` to spare, if for all four corners u_c
+/// d²P/ds². So the link sweeps no more than the convex hull of its four corners, fattened by sag. Any
+/// unit coordinates u (segment_test.hpp) give a plane that supports the ellipsoid, with normal Tᵀu; it
+/// separates the hull from the ellipsoid, with `clearance` to spare, if for all four corners u_c
 ///
 ///     u·u_c - |u| > (sag + clearance) |Tᵀu|.
 ///
-/// Where it does not, the part is halved. The proof needs no distance query; what it certifies is
-/// free.
+/// Tried are the vertices of the link's mean position and of its positions at both ends of the part;
+/// where all three fail, the part is halved, up to 2^-12 of the motion. The proof needs no distance query.
+/// What it certifies is free (to rounding, about 1e-15 of the lengths in play); what it does not certify
+/// may be free all the same, when a link slides along an obstacle closer than about 1e-7 of its length.
 class MotionCertificate {
  public:
   /// @param clearance  distance that the links' axes must keep from every obstacle: link radius and

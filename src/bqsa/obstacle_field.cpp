@@ -29,7 +29,7 @@ bool ObstacleField<Dim>::hit(const ChainPose& pose, const Link& link, int obstac
 
 template <int Dim>
 int ObstacleField<Dim>::first_hit(const ChainPose& pose, const Link& link, int from) const {
-  for (int j = from; j < size(); ++j) {
+  for (int j = from; j < static_cast<int>(shapes_.size()); ++j) {
     if (hit(pose, link, j)) return j;
   }
   return -1;

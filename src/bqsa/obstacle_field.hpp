@@ -23,18 +23,17 @@ class ObstacleField {
   /// From now on a link closer than this [m], by the proven bound `separation`, counts as hitting.
   void keep(double distance) { distance_ = distance; }
 
-  int size() const { return static_cast<int>(shapes_.size()); }
   const EllipsoidN<Dim>& operator[](int obstacle) const {
     return shapes_[static_cast<std::size_t>(obstacle)];
   }
 
-  /// Whether the link is in category 3, 4 or 5 with the obstacle, or not far enough away from it.
-  bool hit(const ChainPose& pose, const Link& link, int obstacle) const;
-
-  /// The first obstacle, counted from `from`, that the link hits; -1 if none.
+  /// The first obstacle, counted from `from`, that the link hits: with which it is in category 3, 4 or
+  /// 5, or from which it is not far enough away; -1 if none.
   int first_hit(const ChainPose& pose, const Link& link, int from = 0) const;
 
  private:
+  bool hit(const ChainPose& pose, const Link& link, int obstacle) const;
+
   std::vector<EllipsoidN<Dim>> shapes_;
   double distance_ = 0;
   WorkCounters* counters_ = nullptr;

@@ -44,7 +44,7 @@ struct Problem {
   JointVector start = {};   ///< joint angles at t = 0 [rad]
   JointLimits limits = {};  ///< optional
   double link_radius = 0;   ///< every link is a capsule of this radius [m]
-  double margin = 0;        ///< clearance that methods are asked to keep [m]
+  double margin = 0;        ///< clearance that methods are asked to keep, from `start` on [m]
   double tolerance = 1e-3;  ///< largest tip error at ticks that counts as success [m]
 
   double time(int tick) const { return tick * dt; }

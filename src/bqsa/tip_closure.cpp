@@ -16,11 +16,13 @@ double close_tip(const SerialChain& chain, const Eigen::Vector3d& p_WT, double d
   const int n = chain.joints();
   TaskJacobian J;
   HybridIkResult ik;
+  HybridIkSettings accurate = settings.ik;
+  accurate.residual_bound = std::min(accurate.residual_bound, settings.tip_tolerance / dt);
   double error = (p_WT - pose.tip()).norm();
   for (int k = 0; k < settings.corrections && error > settings.tip_tolerance; ++k) {
     chain.jacobian(pose, chain.points() - 1, J);
     const TaskVector x_dot = (p_WT - pose.tip()).head(chain.dimension()) / dt;
-    solve_hybrid_ik(J, x_dot, JointVector::Ones(n), JointVector::Zero(n), settings.ik, ik);
+    solve_hybrid_ik(J, x_dot, JointVector::Ones(n), JointVector::Zero(n), accurate, ik);
     const double largest = dt * ik.q_dot.cwiseAbs().maxCoeff();
     q += std::min(1.0, kLargestStep / largest) * dt * ik.q_dot;
     chain.forward(q, pose);

@@ -8,9 +8,9 @@
 
 namespace bqsa {
 
-/// Newton corrections by the hybrid IK with W = I, phi = 0: the least-norm steps that bring the tip
-/// of q to p_WT. At most settings.corrections of them, until the error is below
-/// settings.tip_tolerance.
+/// Newton corrections by the hybrid IK with W = I, phi = 0: the least-norm steps that bring the tip of
+/// q to p_WT. At most settings.corrections of them, until the error is below settings.tip_tolerance.
+/// Damping may cost no more than that tolerance, or it would keep the last part of an error for ever.
 ///
 /// @param dt    control period, the time in which one correction is made [s]
 /// @param q     joint angles, changed in place [rad]

@@ -1,5 +1,5 @@
 /// @file
-/// A proven distance between link and obstacle, free of charge from the quadratic.
+/// A proven distance between link and obstacle, from the quadratic and without a further search.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,9 +16,10 @@ namespace bqsa {
 ///
 ///     nᵀ(P - c) >= u·u on the segment,   max nᵀ(P - c) = |u| on the ellipsoid,
 ///
-/// so that they are at least |u| (|u| - 1) / |Tᵀu| apart. Exact for a sphere, and to first order in
-/// the distance for any ellipsoid; a capsule of radius r around the segment is free if the bound
-/// exceeds r.
+/// so that they are at least |u| (|u| - 1) / |Tᵀu| apart; a capsule of radius r around the segment is
+/// free if the bound exceeds r. Exact for a sphere, and to first order in a distance that is small
+/// against the radius of curvature. Further away from a thin shape it can be far too small: 100 mm beside
+/// the edge of a sheet with the semi-axes 0.1 mm, 100 mm and 10 m it may say 5 mm.
 template <int Dim>
 double separation(const EllipsoidN<Dim>& ellipsoid, const Eigen::Matrix<double, Dim, 1>& p1,
                   const Eigen::Matrix<double, Dim, 1>& p2) {

@@ -25,12 +25,6 @@ using ::testing::UnorderedElementsAre;
 const LinkAndObstacle kLink6Obstacle{6, 1};
 const LinkAndObstacle kLink7Object{7, 0};
 
-BqsaSettings as_the_paper() {
-  BqsaSettings settings;
-  settings.settling = 0;
-  return settings;
-}
-
 /// The paper's scene with the control period as the parameter.
 class PlanarScene : public ::testing::TestWithParam<int> {};
 
@@ -47,7 +41,7 @@ TEST_P(PlanarScene, ExactVariantIsFreeAtAndBetweenTicks) {
 
 TEST_P(PlanarScene, PaperVariantIsFreeWithinItsReportedError) {
   const Problem problem = planar_7r(GetParam());
-  BqsaPlanar method(PlanarVariant::kPaper, as_the_paper());
+  BqsaPlanar method(PlanarVariant::kPaper);
   const Replay run = replay(method, problem);
   ASSERT_EQ(run.q.size(), static_cast<std::size_t>(problem.ticks + 1));
   EXPECT_THAT(sampled_hits(problem, run.q, 8000 / problem.ticks), IsEmpty());
@@ -146,6 +140,47 @@ TEST(BqsaPlanar, OnRandomScenesEveryClaimOfFreedomIsTrueAndMostAreSolved) {
   RecordProperty("solved", solved);
 }
 
+TEST(BqsaPlanar, ThePaperVariantsClaimsAreTrueToo) {
+  test_support::Generator generator(8);
+  BqsaSettings unweighted = default_settings(PlanarVariant::kPaper);
+  unweighted.clamped_weight = 1;
+  int scenes = 0, clamped = 0, weights_matter = 0;
+  while (scenes < 40) {
+    const RandomScene scene = random_scene(generator);
+    if (!scene.valid) continue;
+    ++scenes;
+    BqsaPlanar method(PlanarVariant::kPaper);
+    const Replay run = replay(method, scene.problem);
+    EXPECT_THAT(sampled_hits(scene.problem, run.q, 20), IsEmpty()) << "scene " << scenes;
+    clamped += run.clamped_ticks > 0;
+    BqsaPlanar without_weights(PlanarVariant::kPaper, unweighted);
+    weights_matter += replay(without_weights, scene.problem).q != run.q;
+  }
+  EXPECT_GT(clamped, 30);
+  EXPECT_GT(weights_matter, 0) << "no scene clamps a link whose anchor leaves joints to hold still";
+}
+
+TEST(BqsaPlanar, KeepsTheTipOfASmallArmOnItsPathToo) {
+  Problem small = planar_7r();
+  small.chain = SerialChain(planar_chain(std::vector<double>(7, 0.004)));
+  small.obstacles.clear();
+  const Problem large = planar_7r();
+  small.desired_tip = [&large](double t) -> Eigen::Vector3d { return 0.01 * large.desired_tip(t); };
+  BqsaPlanar method(PlanarVariant::kExact);
+  const Replay run = replay(method, small);
+  EXPECT_EQ(run.q.size(), 401U);
+  EXPECT_LT(run.tip_error, 1e-8);
+}
+
+TEST(BqsaPlanar, EndsATickWhenItsIncrementsAreSpent) {
+  BqsaSettings settings;
+  settings.max_increments = 3;
+  BqsaPlanar method(PlanarVariant::kExact, settings);
+  const Replay run = replay(method, planar_7r());
+  EXPECT_EQ(run.last.reason, Infeasible::kNoFreeConfiguration);
+  EXPECT_LT(run.q.size(), 401U);
+}
+
 TEST(BqsaPlanar, RefusesATickWithoutAWayOutAndSaysWhichLinkAndObstacle) {
   Problem problem = planar_7r();
   // A wall of obstacles across link 4 leaves no orientation of it within the search range.
@@ -161,6 +196,7 @@ TEST(BqsaPlanar, RefusesATickWithoutAWayOutAndSaysWhichLinkAndObstacle) {
   EXPECT_GT(run.last.link, 0);
   EXPECT_EQ(run.last.obstacle, 0);
   EXPECT_EQ(run.last.q, problem.start);
+  EXPECT_EQ(run.last.clamp_count, 0) << "nothing was moved out of the way";
 }
 
 TEST(BqsaPlanar, RefusesAStepBeyondTheVelocityLimitAndBeyondJointLimits) {
@@ -231,8 +267,13 @@ TEST(BqsaPlanar, GivesTheSameTrajectoryEveryTime) {
   EXPECT_GT(first_work.quadratics, 400U * 14U);
 }
 
-TEST(BqsaPlanar, RefusesSpatialProblems) {
+TEST(BqsaPlanar, RefusesSpatialProblemsAndOtherChains) {
   BqsaPlanar method(PlanarVariant::kExact);
+  Problem modified = planar_7r();
+  ChainDescription chain = modified.chain.description();
+  chain.convention = DhConvention::kModified;
+  modified.chain = SerialChain(chain);
+  EXPECT_THROW(method.prepare(modified), std::invalid_argument);
   EXPECT_THROW(method.prepare(test_support::puma560_ellipsoid()), std::invalid_argument);
   EXPECT_EQ(why_not_applicable(bqsa_paper_method().capabilities, test_support::puma560_ellipsoid()),
             "spatial problems not supported yet");

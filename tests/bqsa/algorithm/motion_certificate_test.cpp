@@ -106,6 +106,18 @@ TEST(MotionCertificate, SeesTheArcBeyondTheChord) {
           .certified);
 }
 
+TEST(MotionCertificate, CertifiesAWithdrawalFromContact) {
+  Problem problem{.name = "withdrawal", .chain = SerialChain(planar_chain({1.0}))};
+  problem.obstacles = {{"ball", Ellipsoid({0.6, 0.05 + 1e-6, 0}, {0.05, 0.05, 0.05})}};
+  WorkCounters counters;
+  MotionCertificate certificate;
+  certificate.assign(problem, 0, counters);
+  const JointVector near = JointVector::Zero(1), away = JointVector::Constant(1, -0.2);
+  EXPECT_TRUE(certificate.certify(near, away).certified);
+  EXPECT_TRUE(certificate.certify(away, near).certified);
+  EXPECT_FALSE(certificate.certify(away, JointVector::Constant(1, 1e-4)).certified);
+}
+
 TEST(MotionCertificate, CertifiesAnythingWithoutObstacles) {
   Problem problem{.name = "empty", .chain = SerialChain(planar_chain({1.0, 1.0}))};
   WorkCounters counters;

@@ -1,0 +1,88 @@
+#include "bqsa/backward_search.hpp"
+
+#include "bqsa/tip_closure.hpp"
+
+namespace bqsa {
+
+void BackwardSearch::prepare(const Problem& problem) {
+  problem_ = &problem;
+  counters_ = {};
+  certificate_.assign(problem, problem.link_radius + problem.margin, counters_);
+}
+
+void BackwardSearch::step(const StepInput& input, StepOutput& output) {
+  output = {};
+  increments_left_ = settings_.max_increments;
+
+  if (!predict(input)) return hold(input.q, Infeasible::kDiverged, 0, -1, output);  // 1, 2
+  const JointVector q_predicted = q_;
+  const Infeasible forbidden = forbidden_step(*problem_, input.q, q_predicted);
+  if (forbidden != Infeasible::kNot) return hold(input.q, forbidden, 0, -1, output);
+
+  double distance = settings_.safety_offset;
+  MotionCertificate::Result motion;
+  JointVector q_refused;
+  for (int attempt = 0; attempt <= settings_.retries; ++attempt, distance *= 2) {
+    keep(problem_->link_radius + problem_->margin + distance);
+    output.clamp_count = 0;
+    q_ = q_predicted;
+    forward();
+    const Infeasible reason = free_links(input, output);  // 3, 4
+    if (reason != Infeasible::kNot) {
+      if (!motion.certified) break;
+      return hold(input.q, reason, output.link, output.obstacle, output);
+    }
+    if (attempt > 0 && q_ == q_refused) continue;  // more distance changed nothing
+    q_refused = q_;
+    motion = finish(input, q_predicted, output);  // 5, 6
+    if (motion.certified) {
+      output.q = q_;
+      output.state = output.clamp_count > 0 ? TickState::kClamped : TickState::kFree;
+      return;
+    }
+  }
+  hold(input.q, Infeasible::kNoFreeMotion, motion.link, motion.obstacle, output);
+}
+
+bool BackwardSearch::predict(const StepInput& input) {
+  const SerialChain& chain = problem_->chain;
+  const int n = chain.joints();
+  q_ = input.q;
+  forward();
+  chain.jacobian(pose_, chain.points() - 1, J_tip_);
+  ++counters_.jacobians;
+  x_dot_ = (input.p_WT_desired - pose_.tip()).head(chain.dimension()) / problem_->dt;
+  q_ = hybrid_step(input.q, JointVector::Ones(n), JointVector::Zero(n));
+  forward();
+  return settings_.corrections == 0 ? q_.allFinite() : correct_tip(input);
+}
+
+MotionCertificate::Result BackwardSearch::finish(const StepInput& input, const JointVector&,
+                                                 StepOutput&) {
+  return certificate_.certify(input.q, q_);
+}
+
+JointVector BackwardSearch::hybrid_step(const JointVector& q, const JointVector& weights,
+                                        const JointVector& phi) {
+  solve_hybrid_ik(J_tip_, x_dot_, weights, phi, settings_.ik, ik_);
+  ++counters_.linear_solves;
+  return q + problem_->dt * ik_.q_dot;
+}
+
+bool BackwardSearch::correct_tip(const StepInput& input) {
+  const double error =
+      close_tip(problem_->chain, input.p_WT_desired, problem_->dt, settings_, q_, pose_, counters_);
+  return error <= problem_->tolerance;
+}
+
+void BackwardSearch::forward() {
+  problem_->chain.forward(q_, pose_);
+  ++counters_.kinematics;
+}
+
+bool BackwardSearch::take_increment() {
+  ++counters_.iterations;
+  return --increments_left_ >= 0;
+}
+
+}  // namespace bqsa

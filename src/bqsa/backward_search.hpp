@@ -1,0 +1,68 @@
+/// @file
+/// The control tick that all BQSA variants share (paper, section 3.2, Fig. 4).
+#pragma once
+
+#include "bqsa/bqsa_settings.hpp"
+#include "bqsa/method.hpp"
+#include "bqsa/motion_certificate.hpp"
+
+namespace bqsa {
+
+/// One control tick, numbered as the steps of the reconstructed algorithm:
+///
+///   1. x_dot = (x_d(t) - tip) / dt, closed over the tip error
+///   2. predictor: theta' = theta + dt hybrid_ik(x_dot, W = I, phi = 0), a first-order step, and
+///      `corrections` that take its second-order error away
+///   3. backward search, i = n .. 1: quadratic category of link i with every obstacle
+///   4. joints clamping: links that hit are moved out by self-motions
+///   5. what the variant makes of the clamped configuration
+///   6. the motion from the last tick is certified; if that fails, 3 to 5 again with twice the distance
+///
+/// A tick that fails holds the last safe configuration and says why. Variants supply 3, 4 and 5.
+class BackwardSearch : public ReactiveMethod {
+ public:
+  void prepare(const Problem& problem) override;
+  void step(const StepInput& input, StepOutput& output) final;
+
+ protected:
+  explicit BackwardSearch(const BqsaSettings& settings) : settings_(settings) {}
+
+  /// From now on links hit what is closer than this [m].
+  virtual void keep(double distance) = 0;
+
+  /// Steps 3 and 4: frees all links of q_, changing q_ and pose_, and records the clamps. If that
+  /// fails, says why, with the link and the obstacle in `output`.
+  virtual Infeasible free_links(const StepInput& input, StepOutput& output) = 0;
+
+  /// Steps 5 and 6: whether the motion to q_, or to what the variant makes of it, is certified.
+  virtual MotionCertificate::Result finish(const StepInput& input, const JointVector& q_predicted,
+                                           StepOutput& output);
+
+  /// q + dt hybrid_ik(...) with the tip's Jacobian and velocity of this tick (Eqs. 17, 18).
+  JointVector hybrid_step(const JointVector& q, const JointVector& weights, const JointVector& phi);
+
+  /// Moves q_ until the tip is on its path. False if it stays off it.
+  bool correct_tip(const StepInput& input);
+
+  /// pose_ of q_.
+  void forward();
+
+  /// Counts a clamping increment. False if this tick has none left.
+  bool take_increment();
+
+  BqsaSettings settings_;
+  const Problem* problem_ = nullptr;
+  MotionCertificate certificate_;
+  JointVector q_;   ///< configuration in hand [rad]
+  ChainPose pose_;  ///< of q_
+  HybridIkResult ik_;
+
+ private:
+  bool predict(const StepInput& input);
+
+  TaskJacobian J_tip_;  ///< at the start of the tick
+  TaskVector x_dot_;    ///< [m/s]
+  int increments_left_ = 0;
+};
+
+}  // namespace bqsa
