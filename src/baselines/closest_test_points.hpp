@@ -26,8 +26,7 @@ class ClosestTestPoints {
   /// @param link_points      N, at least 2
   /// @param obstacle_points  M
   /// @param exempt_length    test points of the last link closer than this to the tip are left out,
-  /// for a
-  ///                         tip that works near a surface [m]
+  ///                         for a tip that works near a surface [m]
   /// Problem and counters must outlive this.
   void assign(const Problem& problem, int link_points, int obstacle_points, double exempt_length,
               WorkCounters& counters);

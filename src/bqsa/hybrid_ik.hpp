@@ -12,13 +12,10 @@ namespace bqsa {
 using TaskVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxTaskRows, 1>;
 
 struct HybridIkSettings {
-  double singular_threshold =
-      0.05;  ///< s_0: damping sets in where the smallest singular value is below [m]
-  double lambda_max = 0.05;  ///< largest damping factor [m]
-  double residual_bound =
-      1e-3;  ///< eps: largest task-velocity residual the damping may cause [m/s]
-  double rank_threshold =
-      1e-9;  ///< singular values below this part of the largest count as zero [-]
+  double singular_threshold = 0.05;  ///< s_0: smallest singular value without damping [m]
+  double lambda_max = 0.05;          ///< largest damping factor [m]
+  double residual_bound = 1e-3;      ///< eps: largest residual the damping may cause [m/s]
+  double rank_threshold = 1e-9;      ///< part of the largest singular value that counts as zero [-]
 };
 
 struct HybridIkResult {

@@ -19,8 +19,7 @@ struct ParameterDeclaration {
   double maximum = 0;
   std::string meaning;
   bool integer = false;
-  std::vector<std::string> choices =
-      {};  ///< if not empty, values are these names; default_value indexes them
+  std::vector<std::string> choices = {};  ///< if any: values are these, the default an index
 };
 
 /// A whole number in [minimum, maximum].

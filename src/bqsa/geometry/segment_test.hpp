@@ -11,8 +11,7 @@
 /// * the *parameter form* works on alpha, beta, gamma, like the paper's Eqs. (19)-(22), but in t
 ///   instead of x and therefore without its vertical-link defect (see paper_form.hpp);
 /// * the *polar form* (Joachimsthal) works on S11 = f(0), S22 = f(1) and S12 = u1·u2 - 1, the
-/// product
-///   of both end-points. It is the same quadratic (Delta/4 = S12² - S11 S22), needs no division and
+///   product of both end-points. It is the same quadratic (Delta/4 = S12² - S11 S22), needs no division and
 ///   no special case, and shares each end-point between two links: 9 multiplications a pair in the
 ///   plane, 14 in space.
 ///

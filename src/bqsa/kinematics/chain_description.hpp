@@ -28,8 +28,7 @@ struct ChainDescription {
   std::vector<DhRow> rows;                             ///< one a joint
   Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();  ///< orientation of the base in W
   Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();      ///< position of the base in W [m]
-  Eigen::Vector3d p_LT =
-      Eigen::Vector3d::Zero();  ///< tip in the last frame L [m]; not zero: a tool
+  Eigen::Vector3d p_LT = Eigen::Vector3d::Zero();  ///< tip in the last frame L [m]; zero: no tool
 };
 
 /// A planar arm: joint angles relative to the previous link, link i along its own x axis [m].

@@ -46,10 +46,9 @@ struct ChainPose {
 /// A chain of up to 16 revolute joints. Immutable.
 class SerialChain {
  public:
-  /// @throws std::invalid_argument if there are no joints, more than 16, a number is not finite,
-  /// the
-  ///         base orientation is no rotation, the dimension is neither 2 nor 3, or an arm of
-  ///         dimension 2 leaves the plane z = 0
+  /// @throws std::invalid_argument if there are no joints or more than 16, a number is not finite,
+  ///   the base orientation is no rotation, the dimension is neither 2 nor 3, or an arm of dimension 2
+  ///   leaves the plane z = 0
   explicit SerialChain(ChainDescription description);
 
   const ChainDescription& description() const { return description_; }
