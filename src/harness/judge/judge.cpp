@@ -137,8 +137,7 @@ class CollisionCheck {
   void run(const std::vector<VectorXd>& rows) {
     constexpr double kFar = std::numeric_limits<double>::infinity();
     judgement_.clearance_at_ticks = judgement_.clearance = kFar;
-    visits_left_ =
-        Judge::kVisitsOfAMotion + Judge::kVisitsPerMotion * (static_cast<long>(rows.size()) - 1);
+    visits_left_ = Judge::visits_of_a_run(rows.size());
     std::vector<double> before;
     for (std::size_t k = 0; k < rows.size(); ++k) {
       const int tick = static_cast<int>(k);
@@ -147,6 +146,7 @@ class CollisionCheck {
       before = now;
     }
     judgement_.clearance = std::min(judgement_.clearance, judgement_.clearance_at_ticks);
+    if (contacts_.empty() && failures_.count(Failure::kUndecided) == 0) find_clearance(rows);
     for (const auto& [names, contact] : contacts_) judgement_.contacts.push_back(contact);
     std::stable_sort(
         judgement_.contacts.begin(), judgement_.contacts.end(),
@@ -155,6 +155,13 @@ class CollisionCheck {
   }
 
  private:
+  /// A motion in which a pair may come near.
+  struct Approach {
+    double least;  // bound of the clearance [m]
+    int tick;      // that ends the motion
+    LinkObstaclePair pair;
+  };
+
   /// Reads all pairs; returns their clearances.
   std::vector<double> check_tick(const VectorXd& q, int tick) {
     std::vector<double> clearances;
@@ -164,8 +171,7 @@ class CollisionCheck {
       clearances.push_back(reading.clearance);
       judgement_.clearance_at_ticks = std::min(judgement_.clearance_at_ticks, reading.clearance);
       if (!reading.contradiction.empty()) {
-        disagree(fmt::format("tick {}: link {}, obstacle {}: {}", tick, scene_.link(pair).number,
-                             pair.obstacle, reading.contradiction));
+        disagree(fmt::format("tick {}: {}: {}", tick, scene_.show(pair), reading.contradiction));
       }
       if (reading.clearance < -Judge::kTouching) {
         Contact& contact = contact_of(pair, tick);
@@ -183,26 +189,68 @@ class CollisionCheck {
                     const std::vector<double>& before, const std::vector<double>& after) {
     const std::vector<double> travel = motion_.travel(from, to);
     std::vector<LinkObstaclePair> open;
+    std::vector<double> bounds;  // of the clearances of those
     for (std::size_t k = 0; k < scene_.pairs().size(); ++k) {
       const LinkObstaclePair& pair = scene_.pairs()[k];
       const double clearance = std::min(before[k], after[k]);
+      const double way = travel[static_cast<std::size_t>(pair.link)];
+      const double least = (before[k] + after[k] - way) / 2;
       const bool collides_at_an_end = clearance < -Judge::kTouching;
       // Both checkers agreed on the clearance at the ends, and the link is within half its way of
       // one.
-      const bool too_far = clearance > travel[static_cast<std::size_t>(pair.link)] / 2;
-      if (!collides_at_an_end && !too_far) open.push_back(pair);
+      const bool too_far = clearance > way / 2;
+      if (!collides_at_an_end && !too_far) {
+        open.push_back(pair);
+        bounds.push_back(least);
+      } else {
+        remember(pair, tick, least);
+      }
     }
     if (open.empty()) return;
     const MotionVerdict verdict =
         motion_.follow(from, to, open, std::min(visits_left_, Judge::kVisitsOfAMotion));
     visits_left_ = std::max(0L, visits_left_ - verdict.visits);
+    take(verdict, tick);
+    if (!verdict.undecided.empty()) failures_.insert(Failure::kUndecided);
+    for (const LinkObstaclePair& pair : verdict.colliding) contact_of(pair, tick);
+    for (std::size_t k = 0; k < open.size(); ++k) {
+      remember(open[k], tick, std::max(bounds[k], verdict.proven[k]));
+    }
+  }
+
+  /// Notes the motion to `tick` for find_clearance, if the pair can come nearer in it than any has
+  /// come so far.
+  void remember(const LinkObstaclePair& pair, int tick, double least) {
+    if (may_lower_clearance(least)) approaches_.push_back({least, tick, pair});
+  }
+
+  bool may_lower_clearance(double least) const {
+    const double found = std::min(judgement_.clearance, judgement_.clearance_at_ticks);
+    return least < found - clearance_resolution(found);
+  }
+
+  /// Branch and bound over all motions of a free run, those of the lowest bound first.
+  void find_clearance(const std::vector<VectorXd>& rows) {
+    std::stable_sort(approaches_.begin(), approaches_.end(),
+                     [](const Approach& a, const Approach& b) { return a.least < b.least; });
+    long visits_left = Judge::visits_of_a_run(rows.size());
+    for (const Approach& approach : approaches_) {
+      if (!may_lower_clearance(approach.least)) return;
+      const auto k = static_cast<std::size_t>(approach.tick);
+      const MotionVerdict verdict =
+          motion_.follow(rows[k - 1], rows[k], {approach.pair},
+                         std::min(visits_left, Judge::kVisitsOfAMotion), judgement_.clearance);
+      visits_left -= verdict.visits;
+      take(verdict, approach.tick);
+    }
+  }
+
+  void take(const MotionVerdict& verdict, int tick) {
     judgement_.clearance = std::min(judgement_.clearance, verdict.clearance);
     judgement_.touching = judgement_.touching || verdict.touching;
     if (!verdict.contradiction.empty()) {
       disagree(fmt::format("motion to tick {}: {}", tick, verdict.contradiction));
     }
-    if (!verdict.undecided.empty()) failures_.insert(Failure::kUndecided);
-    for (const LinkObstaclePair& pair : verdict.colliding) contact_of(pair, tick);
   }
 
   void disagree(const std::string& where) {
@@ -222,6 +270,7 @@ class CollisionCheck {
   std::set<Failure>& failures_;
   PointPositions positions_;
   std::map<std::pair<int, int>, Contact> contacts_;
+  std::vector<Approach> approaches_;
   long visits_left_ = 0;
 };
 

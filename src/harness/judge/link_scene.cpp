@@ -17,6 +17,12 @@ std::vector<Ellipsoid> shapes_of(const std::vector<Obstacle>& obstacles) {
   return shapes;
 }
 
+std::vector<std::string> names_of(const std::vector<Obstacle>& obstacles) {
+  std::vector<std::string> names;
+  for (const Obstacle& obstacle : obstacles) names.push_back(obstacle.name);
+  return names;
+}
+
 }  // namespace
 
 std::string contradiction(double exact_clearance, bool fcl_hit) {
@@ -44,6 +50,7 @@ std::string contradiction(double exact_clearance, const FclAnswer& fcl, double s
 
 LinkScene::LinkScene(const Problem& problem)
     : kinematics_(problem.chain.description()),
+      names_(names_of(problem.obstacles)),
       obstacles_(shapes_of(problem.obstacles)),
       link_radius_(problem.link_radius),
       fcl_(obstacles_, link_radius_) {
@@ -52,6 +59,11 @@ LinkScene::LinkScene(const Problem& problem)
       pairs_.push_back({link, obstacle});
     }
   }
+}
+
+std::string LinkScene::show(const LinkObstaclePair& pair) const {
+  return fmt::format("link {}, obstacle {}", link(pair).number,
+                     names_[static_cast<std::size_t>(pair.obstacle)]);
 }
 
 PairReading LinkScene::read(const PointPositions& positions, const LinkObstaclePair& pair,

@@ -65,6 +65,9 @@ class LinkScene {
   }
   double link_radius() const { return link_radius_; }
 
+  /// The pair in words, as `link 3, obstacle ball`.
+  std::string show(const LinkObstaclePair& pair) const;
+
   /// All pairs of a link and an obstacle.
   const std::vector<LinkObstaclePair>& pairs() const { return pairs_; }
 
@@ -74,6 +77,7 @@ class LinkScene {
 
  private:
   JudgeKinematics kinematics_;
+  std::vector<std::string> names_;  // of the obstacles
   std::vector<Ellipsoid> obstacles_;
   double link_radius_;
   FclCheck fcl_;

@@ -44,7 +44,7 @@ PointBounds bounds_of(const JudgeKinematics& kinematics, const Eigen::VectorXd& 
 class Bisection {
  public:
   Bisection(const LinkScene& scene, const Eigen::VectorXd& from, const Eigen::VectorXd& to,
-            const std::vector<LinkObstaclePair>& pairs, long limit)
+            const std::vector<LinkObstaclePair>& pairs, long limit, double known)
       : scene_(scene),
         kinematics_(scene.kinematics()),
         from_(from),
@@ -53,8 +53,11 @@ class Bisection {
         bounds_(bounds_of(kinematics_, change_)),
         pairs_(pairs),
         limit_(limit),
+        least_known_(known),
         colliding_(pairs.size(), false),
-        undecided_(pairs.size(), false) {}
+        undecided_(pairs.size(), false) {
+    verdict_.proven.assign(pairs.size(), std::numeric_limits<double>::infinity());
+  }
 
   MotionVerdict run() {
     std::vector<std::size_t> all;
@@ -101,9 +104,9 @@ class Bisection {
     const PairReading reading = scene_.read(positions_, pair, FclQuestion::kHit);
     ++verdict_.visits;
     verdict_.clearance = std::min(verdict_.clearance, reading.clearance);
+    least_known_ = std::min(least_known_, reading.clearance);
     if (!reading.contradiction.empty() && verdict_.contradiction.empty()) {
-      verdict_.contradiction = fmt::format("link {}, obstacle {}: {}", scene_.link(pair).number,
-                                           pair.obstacle, reading.contradiction);
+      verdict_.contradiction = fmt::format("{}: {}", scene_.show(pair), reading.contradiction);
     }
     if (reading.clearance < -Judge::kTouching) {
       colliding_[index] = true;
@@ -112,8 +115,12 @@ class Bisection {
     const bool touching = reading.clearance <= Judge::kTouching;
     verdict_.touching = verdict_.touching || touching;
     const double least = least_clearance(reading, scene_.link(pair), half_width);
-    if (least > 0) return true;
-    return touching && (least >= -Judge::kTouching || reading.clearance - least <= kResolution);
+    const bool no_nearer = least >= least_known_ - clearance_resolution(least_known_);
+    const bool touches =
+        touching && (least >= -Judge::kTouching || reading.clearance - least <= kResolution);
+    if (!touches && !(least > 0 && no_nearer)) return false;
+    verdict_.proven[index] = std::min(verdict_.proven[index], least);
+    return true;
   }
 
   /// Lower bound of the clearance on the interval around the midpoint.
@@ -140,6 +147,7 @@ class Bisection {
   const PointBounds bounds_;
   const std::vector<LinkObstaclePair>& pairs_;
   const long limit_;
+  double least_known_;  // clearance; -infinity if none is sought
   std::vector<bool> colliding_;
   std::vector<bool> undecided_;
   PointPositions positions_;
@@ -147,6 +155,11 @@ class Bisection {
 };
 
 }  // namespace
+
+double clearance_resolution(double clearance) {
+  constexpr double kRelative = 1e-3;
+  return std::max(1e-6, kRelative * clearance);
+}
 
 Eigen::VectorXd between(const Eigen::VectorXd& from, const Eigen::VectorXd& to, double s) {
   return (1 - s) * from + s * to;
@@ -164,8 +177,9 @@ std::vector<double> MotionCheck::travel(const Eigen::VectorXd& from,
 }
 
 MotionVerdict MotionCheck::follow(const Eigen::VectorXd& from, const Eigen::VectorXd& to,
-                                  const std::vector<LinkObstaclePair>& pairs, long limit) const {
-  return Bisection(scene_, from, to, pairs, limit).run();
+                                  const std::vector<LinkObstaclePair>& pairs, long limit,
+                                  double known) const {
+  return Bisection(scene_, from, to, pairs, limit, known).run();
 }
 
 }  // namespace bqsa::harness

@@ -18,6 +18,9 @@ struct MotionVerdict {
   std::vector<LinkObstaclePair> undecided;  ///< neither proven free nor found colliding
   bool touching = false;  ///< a visited configuration is within the touching band of contact
   double clearance = std::numeric_limits<double>::infinity();  ///< least one visited [m]
+  /// For each pair followed: bound that its clearance was proven not to fall below [m]. Means
+  /// nothing for one that is colliding or undecided.
+  std::vector<double> proven;
   std::string contradiction;  ///< the first of the two checkers, with its pair
   long visits = 0;            ///< pairs read
 };
@@ -35,6 +38,10 @@ struct MotionVerdict {
 /// Pairs not free are bisected until the bound has fallen below the touching band. A clearance
 /// below -Judge::kTouching at any midpoint is a collision; a pair that is still open when the bound
 /// is a small part of the band touches, and counts as free.
+///
+/// Where a clearance already known is given, the bisection is branch and bound as well: a
+/// sub-interval is left only when its bound is not below the least clearance found so far by more
+/// than clearance_resolution.
 class MotionCheck {
  public:
   explicit MotionCheck(const LinkScene& scene) : scene_(scene) {}
@@ -44,12 +51,18 @@ class MotionCheck {
 
   /// @param pairs  those to be followed
   /// @param limit  largest number of visits; pairs open when it is reached are undecided
+  /// @param known  look until the least clearance of the pairs is found if it is below this [m];
+  ///               by default only freedom is asked for
   MotionVerdict follow(const Eigen::VectorXd& from, const Eigen::VectorXd& to,
-                       const std::vector<LinkObstaclePair>& pairs, long limit) const;
+                       const std::vector<LinkObstaclePair>& pairs, long limit,
+                       double known = -std::numeric_limits<double>::infinity()) const;
 
  private:
   const LinkScene& scene_;
 };
+
+/// How far the least clearance found may lie above the true one [m].
+double clearance_resolution(double clearance);
 
 /// Position q(s) on the straight motion from `from` to `to`.
 Eigen::VectorXd between(const Eigen::VectorXd& from, const Eigen::VectorXd& to, double s);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -189,6 +190,55 @@ TEST(Judge, CatchesAMotionThatTunnelsThroughASheet) {
   EXPECT_LT(judgement.clearance, 0);
 }
 
+TEST(Judge, TheClearanceBetweenTicksIsFoundThoughBothEndsAreFar) {
+  constexpr double kTrue = 0.1;  // the outstretched arm of 1.8 m points at the ball halfway
+  for (const double turn : {0.2, -0.2}) {
+    Problem problem = test_support::free_problem(planar_chain({1, 0.8}), 1);
+    problem.obstacles.push_back({"far", Ellipsoid({-1, 1, 0}, Vector3d::Constant(0.1))});
+    problem.obstacles.push_back(
+        {"near", Ellipsoid({1.9001 * std::cos(turn / 2), 1.9001 * std::sin(turn / 2), 0},
+                           Vector3d::Constant(1e-4))});
+    JointVector step(2);
+    step << turn, 0;
+    const Trajectory trajectory = test_support::steady_motion(problem, step);
+    const Judgement judgement = Judge(problem).judge(trajectory);
+    EXPECT_TRUE(judgement.success());
+    EXPECT_GT(judgement.clearance_at_ticks, 0.21);
+    EXPECT_GE(judgement.clearance, kTrue - 1e-12);
+    EXPECT_LE(judgement.clearance, kTrue * 1.0011);
+  }
+}
+
+TEST(Judge, TheClearanceOfARunIsTheLeastOfDenseSamples) {
+  test_support::Generator generator(7);
+  int nearer_than_ticks = 0, free = 0;
+  for (int k = 0; k < 200; ++k) {
+    Problem problem = test_support::free_problem(planar_chain({0.5, 0.4, 0.3}), 8);
+    for (const char* name : {"one", "two", "three"}) {
+      const double angle = test_support::uniform(generator, -3, 3);
+      const double distance = test_support::uniform(generator, 0.3, 1.6);
+      problem.obstacles.push_back(
+          {name, Ellipsoid({distance * std::cos(angle), distance * std::sin(angle), 0},
+                           {0.05, 0.02, test_support::log_uniform(generator, 1e-3, 1)})});
+    }
+    JointVector step(3);
+    for (int j = 0; j < 3; ++j) step(j) = test_support::uniform(generator, -0.2, 0.2);
+    const Judgement judgement = Judge(problem).judge(test_support::steady_motion(problem, step));
+    if (!judgement.success()) continue;
+    ++free;
+    constexpr int kSamples = 100;
+    Problem dense = problem;
+    dense.ticks = problem.ticks * kSamples;
+    const double sampled =
+        Judge(dense).judge(test_support::steady_motion(dense, step / kSamples)).clearance_at_ticks;
+    ASSERT_LE(judgement.clearance, sampled + std::max(1e-6, 1.01e-3 * sampled)) << "case " << k;
+    ASSERT_GE(judgement.clearance, sampled - 5e-3) << "case " << k;  // half a sample's way
+    if (sampled < 0.99 * judgement.clearance_at_ticks) ++nearer_than_ticks;
+  }
+  EXPECT_GT(free, 40);
+  EXPECT_GE(nearer_than_ticks, 10);
+}
+
 TEST(Judge, TouchingIsFreeAndFlagged) {
   const double edge = TurningArm::tip(20).norm() + 0.1;
   for (const double gap : {0.5e-6, 0.0, -0.5e-6}) {
@@ -371,6 +421,13 @@ TEST(Judge, HugeJumpsEndUndecidedInsteadOfStalling) {
     EXPECT_THAT(judgement.failures, Contains(Failure::kJump)) << jump;
     EXPECT_THAT(judgement.failures, Not(Contains(Failure::kCollision))) << jump;
   }
+}
+
+TEST(Judge, PairsAreShownByTheNameOfTheObstacle) {
+  TurningArm run;
+  run.problem.obstacles.push_back({"left", Ellipsoid({-1, 0, 0}, Vector3d::Constant(0.1))});
+  run.problem.obstacles.push_back({"right", Ellipsoid({2, 0, 0}, Vector3d::Constant(0.1))});
+  EXPECT_EQ(LinkScene(run.problem).show({.link = 2, .obstacle = 1}), "link 3, obstacle right");
 }
 
 TEST(Judge, EveryFailureHasAName) {
