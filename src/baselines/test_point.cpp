@@ -89,13 +89,13 @@ class TestPoint final : public ReactiveMethod {
     const TaskVector u = closest.direction.head(chain.dimension());
     const JointVector j0 =
         (1 - closest.s) * (J_start_.transpose() * u) + closest.s * (J_end_.transpose() * u);
-    const JointVector P_j0 = solve(TaskVector::Zero(chain.dimension()), j0);
+    const JointVector projected = solve(TaskVector::Zero(chain.dimension()), j0);
     if (settings_.law == Law::kGradientProjection) {
-      return settings_.gradient_gain * (settings_.influence - closest.distance) * P_j0;
+      return settings_.gradient_gain * (settings_.influence - closest.distance) * projected;
     }
     const double alpha = gain(closest.distance, settings_);
     const double wanted = alpha * settings_.escape_velocity - j0.dot(tracking);
-    return alpha * wanted / (j0.dot(P_j0) + settings_.regularization) * P_j0;
+    return alpha * wanted / (j0.dot(projected) + settings_.regularization) * projected;
   }
 
   Settings settings_;
