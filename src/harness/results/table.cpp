@@ -73,6 +73,8 @@ std::string figure(double value) {
   const double size = std::abs(value);
   if (size == 0) return "0";
   if (size < 1e-3) return fmt::format("{:.1e}", value);
+  constexpr double kLongest = 1e6;
+  if (size >= kLongest) return fmt::format("{:.1e}", value);
   return size < 100 ? fmt::format("{:.3g}", value) : fmt::format("{:.0f}", value);
 }
 

@@ -49,7 +49,8 @@ struct TableRow {
       against_times;  ///< why the times are only indicative; empty if they count
 };
 
-/// @throws InputError if the text is not a record of schema bqsa-run/1
+/// @throws InputError if the text is cut short, is not a record of schema bqsa-run/1, or contradicts
+///   itself about success
 TableRow parse_run_record(std::string_view record);
 
 }  // namespace bqsa::harness

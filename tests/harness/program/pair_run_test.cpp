@@ -227,6 +227,61 @@ TEST_F(PairRun, ALineCutShortDoesNotSpoilTheNext) {
   EXPECT_EQ(lines[2].number, 3);
 }
 
+/// What is said of a record that cannot be used; empty if it can.
+std::string refusal_of(const Json& record) {
+  try {
+    parse_run_record(record.dump());
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST_F(PairRun, ARecordThatContradictsItselfAboutSuccessIsRefused) {
+  const Json collided = run(scripted("sweep", sweep_and_give_up));
+  EXPECT_EQ(refusal_of(collided), "");
+  Json record = collided;
+  record["judged"]["success"] = true;
+  EXPECT_EQ(refusal_of(record), "not a run record: judged.success: contradicts judged.failures");
+  record["judged"]["failures"] = Json::array();
+  EXPECT_EQ(refusal_of(record), "not a run record: judged.contacts: contradict judged.success");
+  record["judged"]["contacts"] = Json::array();
+  EXPECT_EQ(refusal_of(record), "");
+  record["judged"]["success"] = false;
+  EXPECT_EQ(refusal_of(record), "not a run record: judged.success: contradicts judged.failures");
+}
+
+TEST_F(PairRun, ARecordIsRefusedWithTheKeyThatIsWrong) {
+  const Json good = run(scripted("sweep", sweep_and_give_up));
+  const auto with = [&good](const char* key, const Json& value) {
+    Json record = good;
+    record[Json::json_pointer(key)] = value;
+    return refusal_of(record);
+  };
+  const std::string start = "not a run record: ";
+  EXPECT_EQ(with("/schema", "other/1"), start + "schema: expected bqsa-run/1, got other/1");
+  EXPECT_EQ(with("/problem", 7), start + "problem: expected an object");
+  EXPECT_EQ(with("/problem/ticks", -1), start + "problem.ticks: expected a whole number");
+  EXPECT_EQ(with("/problem/ticks", 1e300), start + "problem.ticks: expected a whole number");
+  EXPECT_EQ(with("/judged/rows", 1L << 40), start + "judged.rows: expected a whole number");
+  EXPECT_EQ(with("/judged/clearance_m", "near"), start + "judged.clearance_m: expected a number");
+  EXPECT_EQ(with("/judged/failures/0", 1), start + "judged.failures[0]: expected a text");
+  EXPECT_EQ(with("/judged/contacts", 1), start + "judged.contacts: expected a list");
+  EXPECT_EQ(with("/claim_holds", 1), start + "claim_holds: expected true or false");
+  Json without = good;
+  without["method"].erase("variant");
+  EXPECT_EQ(refusal_of(without), start + "method.variant: missing");
+  EXPECT_EQ(refusal_of(Json::array()), start + "expected an object");
+}
+
+TEST_F(PairRun, TextsOfARecordCannotSteerATerminal) {
+  Json record = run(scripted("sweep", sweep_and_give_up));
+  record["method"]["variant"] =
+      "a\033[2Jb\x7f"
+      "c\u009bd\u00e9";
+  EXPECT_EQ(parse_run_record(record.dump()).variant, "a [2Jb c d\u00e9");
+}
+
 TEST(ReasonsAgainstTimes, AreTheBuildAndTheLoad) {
   BuildInfo build;
   build.build_type = "Release";

@@ -145,6 +145,8 @@ TEST_F(ProgramRun, ShowReportsBrokenLinesAndShowsTheOthers) {
     EXPECT_THAT(result.err, HasSubstr(place));
   }
   EXPECT_THAT(result.err, Not(HasSubstr("runs.jsonl:1: ")));
+  EXPECT_THAT(result.err, HasSubstr("runs.jsonl:4: cut short or damaged; left out\n"));
+  EXPECT_THAT(result.err, Not(HasSubstr("json.exception")));
   EXPECT_THAT(result.out, HasSubstr("collides"));
 }
 

@@ -1,0 +1,39 @@
+/// @file
+/// Reading access to a stored record that trusts nothing and says what is wrong in plain words.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "harness/input_error.hpp"
+
+namespace bqsa::harness {
+
+/// A value of a record, with the path of its key for messages. The JSON outlives it. All access
+/// throws InputError `not a run record: <key>: ...` if the record is not as documented.
+class RecordValue {
+ public:
+  explicit RecordValue(const nlohmann::json& json, std::string path = {});
+
+  RecordValue operator[](const char* key) const;
+
+  bool is_null() const;
+  bool boolean() const;
+  int integer() const;       ///< from 0 to the largest int
+  double number() const;     ///< not a number for null
+  std::string text() const;  ///< printable(), safe for a terminal
+  std::vector<RecordValue> list() const;
+
+  [[noreturn]] void refuse(std::string_view why) const;
+
+ private:
+  const nlohmann::json& json_;
+  std::string path_;
+};
+
+/// Text with a space for every control character of ASCII and Unicode.
+std::string printable(std::string_view text);
+
+}  // namespace bqsa::harness
