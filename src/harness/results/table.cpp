@@ -202,12 +202,27 @@ std::string line_of(char mark, const Cells& cells, const Widths& widths) {
   return line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
 }
 
-/// The last run of each scenario and variant, at the place of the first.
+bool same_scenario(const TableRow& a, const TableRow& b) {
+  return a.scenario == b.scenario && a.sha256 == b.sha256;
+}
+
+/// The name of the scenario; with the hash of its file if there are runs of other files of that name.
+std::string scenario_title(const TableRow& row, const std::vector<TableRow>& rows) {
+  constexpr std::size_t kDigits = 8;
+  const bool ambiguous = std::any_of(rows.begin(), rows.end(), [&row](const TableRow& other) {
+    return other.scenario == row.scenario && other.sha256 != row.sha256;
+  });
+  if (!ambiguous) return row.scenario;
+  return fmt::format("{} (one of several files of this name, sha256 {})", row.scenario,
+                     row.sha256.substr(0, kDigits));
+}
+
+/// The last run of each scenario file and variant, at the place of the first.
 std::vector<TableRow> last_runs(const std::vector<TableRow>& rows) {
   std::vector<TableRow> shown;
   for (const TableRow& row : rows) {
     const auto older = std::find_if(shown.begin(), shown.end(), [&row](const TableRow& other) {
-      return other.scenario == row.scenario && other.variant == row.variant;
+      return same_scenario(other, row) && other.variant == row.variant;
     });
     if (older == shown.end()) {
       shown.push_back(row);
@@ -218,16 +233,19 @@ std::vector<TableRow> last_runs(const std::vector<TableRow>& rows) {
   return shown;
 }
 
-template <typename Key>
-std::vector<std::string> distinct(const std::vector<TableRow>& rows, Key key) {
-  std::vector<std::string> values;
+/// The rows that are the first of their kind.
+template <typename Same>
+std::vector<TableRow> firsts(const std::vector<TableRow>& rows, Same same) {
+  std::vector<TableRow> list;
   for (const TableRow& row : rows) {
-    if (std::find(values.begin(), values.end(), key(row)) == values.end()) {
-      values.push_back(key(row));
-    }
+    const bool seen = std::any_of(list.begin(), list.end(),
+                                  [&](const TableRow& other) { return same(row, other); });
+    if (!seen) list.push_back(row);
   }
-  return values;
+  return list;
 }
+
+bool same_build(const TableRow& a, const TableRow& b) { return a.build == b.build; }
 
 }  // namespace
 
@@ -245,27 +263,22 @@ std::string render_table(const std::vector<TableRow>& all_rows) {
   }
 
   std::string text;
-  for (const std::string& scenario :
-       distinct(rows, [](const TableRow& row) { return row.scenario; })) {
-    std::string problem;
+  for (const TableRow& first : firsts(rows, same_scenario)) {
     std::string start;
     std::string block;
     for (const TableRow& row : rows) {
-      if (row.scenario != scenario) continue;
-      problem = row.problem;
+      if (!same_scenario(row, first)) continue;
       if (std::isfinite(row.start_error_m)) {
         start = fmt::format(", start {} mm off the path", millimetres(row.start_error_m));
       }
       block += line_of(mark_of(row), cells_of(row), widths) + notes_of(row);
     }
-    text += fmt::format("{}: {}{}\n", scenario, problem, start);
+    text += fmt::format("{}: {}{}\n", scenario_title(first, rows), first.problem, start);
     text += line_of(' ', heads, widths) + line_of(' ', units, widths) + block + '\n';
   }
   text += kLegend;
   text += time_notes(rows);
-  for (const std::string& build : distinct(rows, [](const TableRow& row) { return row.build; })) {
-    text += "made by " + build + '\n';
-  }
+  for (const TableRow& row : firsts(rows, same_build)) text += "made by " + row.build + '\n';
   return text;
 }
 

@@ -128,6 +128,7 @@ TableRow parse_run_record(std::string_view text) {
   }
   TableRow row;
   row.scenario = record["scenario"]["name"].text();
+  row.sha256 = record["scenario"]["sha256"].text();
   row.problem = problem_text(record["problem"]);
   row.ticks = record["problem"]["ticks"].integer();
   row.variant = record["method"]["variant"].text();

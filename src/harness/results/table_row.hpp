@@ -16,6 +16,7 @@ struct TableRow {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
   std::string scenario;
+  std::string sha256;   ///< of the scenario file
   std::string problem;  ///< sizes of the problem, as text
   std::string variant;  ///< method, with the hash of its changed parameters
   std::string changed;  ///< those parameters

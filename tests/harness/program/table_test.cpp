@@ -140,6 +140,18 @@ TEST(Table, TheLastRunCountsAtThePlaceOfTheFirst) {
   EXPECT_LT(table.find(" one "), table.find(" two "));
 }
 
+TEST(Table, RunsOfAChangedScenarioFileStandApart) {
+  TableRow old = success("a", "one");
+  old.sha256 = "0123456789abcdef";
+  TableRow changed = success("a", "one");
+  changed.sha256 = "fedcba9876543210";
+  changed.problem = "6 joints";
+  const std::string table = render_table({old, changed, success("b", "one")});
+  EXPECT_THAT(table, HasSubstr("a (one of several files of this name, sha256 01234567): 7 joints"));
+  EXPECT_THAT(table, HasSubstr("a (one of several files of this name, sha256 fedcba98): 6 joints"));
+  EXPECT_THAT(table, HasSubstr("\nb: 7 joints"));
+}
+
 TEST(Table, FitsItsWidthWithManyPairs) {
   TableRow row = failure("test_point@1a2b3c4d", {Failure::kCollision});
   for (int i = 1; i <= 60; ++i) row.collided.push_back(std::to_string(i) + " obstacle");
