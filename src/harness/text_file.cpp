@@ -9,6 +9,14 @@
 
 namespace bqsa::harness {
 namespace fs = std::filesystem;
+namespace {
+
+[[noreturn]] void refuse(const fs::path& file, const std::error_code& error) {
+  throw InputError(fmt::format("{}: expected a file that can be written, got one that cannot ({})",
+                               file.string(), error.message()));
+}
+
+}  // namespace
 
 std::string read_text_file(const fs::path& file, std::size_t max_bytes) {
   const auto fail = [&file](const std::string& expected, const std::string& got) {
@@ -35,25 +43,36 @@ std::string read_text_file(const fs::path& file, std::size_t max_bytes) {
   return content;
 }
 
-void write_text_file(const fs::path& file, std::string_view content) {
-  fs::path temporary = file;
-  temporary += fmt::format(".{}.tmp", getpid());
+StagedTextFile::StagedTextFile(const fs::path& file, std::string_view content)
+    : file_(file), temporary_(file) {
+  temporary_ += fmt::format(".{}.tmp", getpid());
+  std::error_code unknown;
+  if (fs::is_directory(file, unknown)) refuse(file, std::make_error_code(std::errc::is_a_directory));
+  errno = 0;
+  std::ofstream stream(temporary_, std::ios::binary | std::ios::trunc);
+  stream.write(content.data(), static_cast<std::streamsize>(content.size()));
+  stream.close();
+  if (stream) return;
+  const std::error_code error(errno != 0 ? errno : EIO, std::generic_category());
+  std::error_code ignored;
+  fs::remove(temporary_, ignored);
+  refuse(file, error);
+}
+
+StagedTextFile::~StagedTextFile() {
+  std::error_code ignored;
+  if (!temporary_.empty()) fs::remove(temporary_, ignored);
+}
+
+void StagedTextFile::commit() {
   std::error_code error;
-  {
-    errno = 0;
-    std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
-    stream.write(content.data(), static_cast<std::streamsize>(content.size()));
-    stream.close();
-    if (!stream) error = {errno != 0 ? errno : EIO, std::generic_category()};
-  }
-  if (!error) fs::rename(temporary, file, error);
-  if (error) {
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-    throw InputError(
-        fmt::format("{}: expected a file that can be written, got one that cannot ({})",
-                    file.string(), error.message()));
-  }
+  fs::rename(temporary_, file_, error);
+  if (error) refuse(file_, error);
+  temporary_.clear();
+}
+
+void write_text_file(const fs::path& file, std::string_view content) {
+  StagedTextFile(file, content).commit();
 }
 
 std::string excerpt(std::string_view text) {

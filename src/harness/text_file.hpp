@@ -16,6 +16,24 @@ namespace bqsa::harness {
 ///   than `max_bytes`
 std::string read_text_file(const std::filesystem::path& file, std::size_t max_bytes);
 
+/// A file that is written but not yet in its place: a temporary file in the same directory, which
+/// commit() renames. Without commit() it is removed again.
+class StagedTextFile {
+ public:
+  /// @throws InputError naming `file` if it cannot be written
+  StagedTextFile(const std::filesystem::path& file, std::string_view content);
+  ~StagedTextFile();
+  StagedTextFile(const StagedTextFile&) = delete;
+  StagedTextFile& operator=(const StagedTextFile&) = delete;
+
+  /// @throws InputError naming the file if it cannot take its place
+  void commit();
+
+ private:
+  std::filesystem::path file_;
+  std::filesystem::path temporary_;
+};
+
 /// Writes to a temporary file in the same directory and renames it, so that the file appears
 /// complete or not at all; an existing file is replaced.
 /// @throws InputError naming the file if it cannot be written

@@ -23,7 +23,7 @@ std::string header(Eigen::Index joints) {
 
 }  // namespace
 
-void write_trajectory(const std::filesystem::path& file, const Trajectory& trajectory) {
+std::string trajectory_text(const Trajectory& trajectory) {
   std::string text = header(trajectory.q.empty() ? 0 : trajectory.q.front().size());
   text += '\n';
   const std::size_t rows = std::min(trajectory.t.size(), trajectory.q.size());
@@ -35,7 +35,11 @@ void write_trajectory(const std::filesystem::path& file, const Trajectory& traje
     }
     text += '\n';
   }
-  write_text_file(file, text);
+  return text;
+}
+
+void write_trajectory(const std::filesystem::path& file, const Trajectory& trajectory) {
+  write_text_file(file, trajectory_text(trajectory));
 }
 
 Trajectory read_trajectory(const std::filesystem::path& file, int joints) {

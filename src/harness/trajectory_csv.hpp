@@ -3,15 +3,19 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "bqsa/method.hpp"
 #include "harness/input_error.hpp"
 
 namespace bqsa::harness {
 
-/// Writes all digits, so that reading gives the same numbers; the file appears complete or not at
-/// all. A trajectory without rows gives the header `t` alone; rows of uneven width are written as they
-/// are, and reading refuses both.
+/// The text of the file, with all digits, so that reading gives the same numbers. A trajectory
+/// without rows gives the header `t` alone; rows of uneven width are written as they are, and reading
+/// refuses both.
+std::string trajectory_text(const Trajectory& trajectory);
+
+/// Writes that text; the file appears complete or not at all.
 /// @throws InputError if the file cannot be written
 void write_trajectory(const std::filesystem::path& file, const Trajectory& trajectory);
 

@@ -25,6 +25,8 @@ int main(int argc, char** argv) {
   fill_closed_standard_streams();
   // A reader that goes away (`| head`) must not end runs that are under way.
   std::signal(SIGPIPE, SIG_IGN);
+  // Nor must a limit on the size of files: the write fails and is reported.
+  std::signal(SIGXFSZ, SIG_IGN);
   const Console console{std::cout, std::cerr, isatty(STDERR_FILENO) != 0};
   const int status = run_program(argc, argv, console);
   errno = 0;

@@ -96,7 +96,11 @@ Status run_command(const RunOptions& options, const Console& console) {
       for (const MethodSpec& spec : specs) {
         progress.next(scenario.problem.name + " " + variant_name(spec));
         try {
-          rows.push_back(parse_run_record(run_pair(scenario, judge, spec, circumstances, store)));
+          const StoredRun run = run_pair(scenario, judge, spec, circumstances, store);
+          rows.push_back(parse_run_record(run.record));
+          if (run.trajectory_error.empty()) continue;
+          console.error(run.trajectory_error);
+          lost = true;
         } catch (const InputError& error) {
           console.error(error.what());
           lost = true;

@@ -2,24 +2,31 @@
 
 namespace bqsa::harness {
 
-std::string run_pair(const Scenario& scenario, const Judge& judge, const MethodSpec& method,
-                     const Circumstances& circumstances, ResultStore& store) {
+StoredRun run_pair(const Scenario& scenario, const Judge& judge, const MethodSpec& method,
+                   const Circumstances& circumstances, ResultStore& store) {
   const Problem& problem = scenario.problem;
   const MachineState machine = machine_state();
   const std::string why_not = why_not_applicable(method.entry.capabilities, problem);
-  std::string record;
+  StoredRun run;
+  std::unique_ptr<StagedTextFile> staged;
   if (why_not.empty()) {
     const RunOutcome outcome =
         run_method(problem, method.entry, method.parameters, circumstances.settings);
-    const std::string file =
-        store.write_trajectory(problem.name, variant_name(method), outcome.trajectory);
-    record = run_record(scenario, method, outcome, judge.judge(outcome.trajectory), machine,
-                        circumstances, file);
+    const Judgement judgement = judge.judge(outcome.trajectory);
+    const std::string file = ResultStore::trajectory_file(problem.name, variant_name(method));
+    try {
+      staged = store.stage_trajectory(file, outcome.trajectory);
+    } catch (const InputError& error) {
+      run.trajectory_error = error.what();
+    }
+    run.record = run_record(scenario, method, outcome, judgement, machine, circumstances,
+                            staged ? file : "");
   } else {
-    record = not_applicable_record(scenario, method, why_not, machine, circumstances);
+    run.record = not_applicable_record(scenario, method, why_not, machine, circumstances);
   }
-  store.append(record);
-  return record;
+  store.append(run.record);
+  if (staged) staged->commit();
+  return run;
 }
 
 }  // namespace bqsa::harness

@@ -10,11 +10,16 @@
 
 namespace bqsa::harness {
 
-/// Runs the method if it applies to the scenario, judges and stores trajectory and record.
+struct StoredRun {
+  std::string record;            ///< as stored
+  std::string trajectory_error;  ///< why the trajectory could not be stored; empty if it was
+};
+
+/// Runs the method if it applies to the scenario, judges it and stores record and trajectory, in
+/// this order, so that no older record stands beside a newer trajectory.
 /// @param judge  of the scenario's problem
-/// @returns the record as stored
-/// @throws InputError if the results cannot be written
-std::string run_pair(const Scenario& scenario, const Judge& judge, const MethodSpec& method,
-                     const Circumstances& circumstances, ResultStore& store);
+/// @throws InputError if the record cannot be written; then nothing is stored
+StoredRun run_pair(const Scenario& scenario, const Judge& judge, const MethodSpec& method,
+                   const Circumstances& circumstances, ResultStore& store);
 
 }  // namespace bqsa::harness

@@ -29,11 +29,20 @@ void make_writable_directory(const std::filesystem::path& directory) {
   if (access(directory.c_str(), W_OK | X_OK) != 0) refuse(directory, errno);
 }
 
+off_t size_of(int file) {
+  struct stat status {};
+  return fstat(file, &status) == 0 ? status.st_size : 0;
+}
+
+bool is_regular(int file) {
+  struct stat status {};
+  return fstat(file, &status) == 0 && S_ISREG(status.st_mode);
+}
+
 bool ends_with_line_break(int file) {
   char last = '\n';
-  struct stat status {};
-  if (fstat(file, &status) != 0 || status.st_size == 0) return true;
-  return pread(file, &last, 1, status.st_size - 1) == 1 && last == '\n';
+  const off_t size = size_of(file);
+  return size == 0 || (pread(file, &last, 1, size - 1) == 1 && last == '\n');
 }
 
 }  // namespace
@@ -47,8 +56,12 @@ ResultStore::ResultStore(const std::filesystem::path& directory) : directory_(di
   make_writable_directory(directory_ / kTrajectories);
   const std::filesystem::path runs = runs_file(directory_);
   constexpr mode_t kReadableByAll = 0644;
-  file_ = open(runs.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, kReadableByAll);
+  file_ = open(runs.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK, kReadableByAll);
   if (file_ < 0) refuse(runs, errno);
+  if (!is_regular(file_)) {
+    close(file_);
+    throw InputError(fmt::format("{}: cannot write: not a regular file", runs.string()));
+  }
   if (!ends_with_line_break(file_)) append("");
 }
 
@@ -56,27 +69,37 @@ ResultStore::~ResultStore() {
   if (file_ >= 0) close(file_);
 }
 
-std::string ResultStore::write_trajectory(const std::string& scenario, const std::string& variant,
-                                          const Trajectory& trajectory) const {
-  const std::filesystem::path relative =
-      std::filesystem::path(kTrajectories) / scenario / (variant + ".csv");
-  const std::filesystem::path file = directory_ / relative;
-  make_writable_directory(file.parent_path());
-  harness::write_trajectory(file, trajectory);
-  return relative.string();
+std::string ResultStore::trajectory_file(const std::string& scenario, const std::string& variant) {
+  return (std::filesystem::path(kTrajectories) / scenario / (variant + ".csv")).string();
+}
+
+std::unique_ptr<StagedTextFile> ResultStore::stage_trajectory(const std::string& file,
+                                                              const Trajectory& trajectory) const {
+  const std::filesystem::path place = directory_ / file;
+  make_writable_directory(place.parent_path());
+  return std::make_unique<StagedTextFile>(place, trajectory_text(trajectory));
 }
 
 void ResultStore::append(std::string_view record) {
   const std::string line = std::string(record) + '\n';
+  const off_t before = size_of(file_);
   const ssize_t written = write(file_, line.data(), line.size());
   if (written < 0) refuse(runs_file(directory_), errno);
-  if (static_cast<std::size_t>(written) < line.size()) refuse(runs_file(directory_), ENOSPC);
+  if (static_cast<std::size_t>(written) == line.size()) return;
+  // Not if someone else has appended meanwhile: then the piece stays, and `show` reports it.
+  const bool mine = size_of(file_) == before + written;
+  if (!mine || ftruncate(file_, before) != 0) append("");
+  refuse(runs_file(directory_), ENOSPC);
 }
 
 std::vector<StoredLine> read_lines(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in || std::filesystem::is_directory(file)) {
-    throw InputError(fmt::format("{}: cannot read: no such file, or not readable", file.string()));
+  std::error_code error;
+  const bool regular = std::filesystem::is_regular_file(file, error);
+  std::ifstream in;
+  if (regular) in.open(file);
+  if (!regular || !in) {
+    throw InputError(
+        fmt::format("{}: cannot read: not a file, or not a readable one", file.string()));
   }
   std::vector<StoredLine> lines;
   StoredLine line;

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "bqsa/method.hpp"
 #include "harness/input_error.hpp"
+#include "harness/text_file.hpp"
 
 namespace bqsa::harness {
 
@@ -23,13 +25,17 @@ class ResultStore {
   ResultStore(const ResultStore&) = delete;
   ResultStore& operator=(const ResultStore&) = delete;
 
-  /// Writes `trajectories/<scenario>/<variant>.csv`, replacing an older one, and returns that path
-  /// relative to the directory.
-  /// @throws InputError if it cannot be written
-  std::string write_trajectory(const std::string& scenario, const std::string& variant,
-                               const Trajectory& trajectory) const;
+  /// Path `trajectories/<scenario>/<variant>.csv` of a trajectory, relative to the directory.
+  static std::string trajectory_file(const std::string& scenario, const std::string& variant);
 
-  /// Appends a record with one system call, so that whatever ends the program leaves whole lines.
+  /// Writes a trajectory, but leaves an older one in its place until commit().
+  /// @param file  trajectory_file()
+  /// @throws InputError if it cannot be written
+  std::unique_ptr<StagedTextFile> stage_trajectory(const std::string& file,
+                                                   const Trajectory& trajectory) const;
+
+  /// Appends a record with one system call, so that whatever ends the program leaves whole lines;
+  /// what was written of a record that does not fit is taken back.
   /// @throws InputError if it cannot be written
   void append(std::string_view record);
 

@@ -195,7 +195,7 @@ std::string run_record(const Scenario& scenario, const MethodSpec& method,
   record["ticks"] = ticks_json(scenario.problem, outcome);
   record["counters"] = counters_json(outcome.counters);
   record["times"] = times_json(outcome.times, success, machine);
-  record["trajectory"] = trajectory_file;
+  record["trajectory"] = trajectory_file.empty() ? Json() : Json(trajectory_file);
   record["provenance"] = provenance_json(machine, circumstances);
   return one_line(record);
 }

@@ -19,7 +19,7 @@ struct Circumstances {
 };
 
 /// A run that took place. Without a line break at the end.
-/// @param trajectory_file  relative to the results directory
+/// @param trajectory_file  relative to the results directory; empty if it could not be written
 std::string run_record(const Scenario& scenario, const MethodSpec& method,
                        const RunOutcome& outcome, const Judgement& judgement,
                        const MachineState& machine, const Circumstances& circumstances,

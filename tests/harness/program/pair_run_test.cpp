@@ -83,7 +83,7 @@ class PairRun : public ::testing::Test {
   Json run(const MethodSpec& spec) {
     ResultStore store(directory_.path());
     return Json::parse(
-        run_pair(scenario_, judge_, spec, {.settings = {}, .command_line = "test"}, store));
+        run_pair(scenario_, judge_, spec, {.settings = {}, .command_line = "test"}, store).record);
   }
 
   TemporaryDirectory directory_;
@@ -213,6 +213,31 @@ TEST_F(PairRun, AReplayedPlanIsJudgedLikeAnyOtherTrajectory) {
   EXPECT_EQ(replayed["judged"], reactive["judged"]);
   EXPECT_GE(replayed["times"]["plan_s"], 0);
   EXPECT_TRUE(replayed["times"]["warm_median_s"].is_null());
+}
+
+TEST_F(PairRun, AResultIsNotLostWithItsTrajectory) {
+  // A directory stands where the file should be.
+  std::filesystem::create_directories(directory_.path() / "trajectories/planar_7r/still.csv");
+  ResultStore store(directory_.path());
+  const StoredRun stored = run_pair(scenario_, judge_, scripted("still", stand_still), {}, store);
+  EXPECT_THAT(stored.trajectory_error, ::testing::HasSubstr("still.csv: expected a file"));
+  const std::vector<StoredLine> lines = read_lines(runs_file(directory_.path()));
+  ASSERT_EQ(lines.size(), 1u);
+  const Json record = Json::parse(lines[0].text);
+  EXPECT_TRUE(record["trajectory"].is_null());
+  EXPECT_EQ(record["judged"]["success"], false);
+}
+
+TEST_F(PairRun, ATrajectoryWaitsForItsRecord) {
+  run(scripted("still", stand_still));
+  const std::filesystem::path file = directory_.path() / "trajectories/planar_7r/still.csv";
+  ResultStore store(directory_.path());
+  {
+    const auto staged = store.stage_trajectory(store.trajectory_file("planar_7r", "still"), {});
+    EXPECT_EQ(read_trajectory(file, 7).q.size(), 401u) << "replaced before the record";
+  }
+  const std::filesystem::directory_iterator files(file.parent_path());
+  EXPECT_EQ(std::distance(begin(files), end(files)), 1) << "the temporary file is left over";
 }
 
 TEST_F(PairRun, ALineCutShortDoesNotSpoilTheNext) {

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
+
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
@@ -204,6 +206,37 @@ TEST_F(ProgramRun, ClosedStandardStreamsDoNotPrintIntoTheResults) {
   EXPECT_EQ(records().size(), 2u);
   EXPECT_EQ(run_bqsa_bench({"show", out_}).status, 0);
   ASSERT_EQ(std::system((BQSA_BENCH " list >&-")), 0);
+}
+
+TEST_F(ProgramRun, ALimitOnTheSizeOfFilesLeavesWholeRecords) {
+  // Room for some records, not for a trajectory.
+  const std::string command = BQSA_BENCH " run " + kPlanar + " -q --method none --out " + out_;
+  int recorded = 0;
+  for (int i = 0; i < 8; ++i) {
+    const int status = std::system(("ulimit -f 16; exec " + command + " 2>/dev/null").c_str());
+    ASSERT_TRUE(WIFEXITED(status)) << "ended by a signal";
+    EXPECT_EQ(WEXITSTATUS(status), 2);
+    EXPECT_EQ(content_of(runs_file(out_)).back(), '\n');
+  }
+  for (const nlohmann::json& record : records()) {
+    ++recorded;
+    EXPECT_TRUE(record["trajectory"].is_null());
+  }
+  EXPECT_GE(recorded, 1);
+  EXPECT_LT(recorded, 8);
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(records().size(), recorded + 1u);
+}
+
+TEST_F(ProgramRun, OnlyARegularFileHoldsRuns) {
+  std::filesystem::create_directories(out_);
+  ASSERT_EQ(mkfifo(runs_file(out_).c_str(), 0600), 0);
+  const ProgramResult shown = run_bqsa_bench({"show", out_});
+  EXPECT_EQ(shown.status, 2);
+  EXPECT_THAT(shown.err, HasSubstr("runs.jsonl: cannot read"));
+  const ProgramResult added = run({kPlanar, "--method", "none"});
+  EXPECT_EQ(added.status, 2);
+  EXPECT_THAT(added.err, HasSubstr("runs.jsonl: cannot write: not a regular file"));
 }
 
 TEST_F(ProgramRun, AReaderThatGoesAwayCostsNoResults) {
