@@ -63,7 +63,10 @@ NumericTable read_numeric_csv(const std::filesystem::path& file, const std::stri
     throw InputError(
         fmt::format("{}: expected the header {}, got an empty file", file.string(), header));
   }
-  Lines lines(text, file.string());
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  std::string_view content = text;
+  if (content.starts_with(kByteOrderMark)) content.remove_prefix(kByteOrderMark.size());
+  Lines lines(content, file.string());
   const std::string_view first = lines.next();
   if (first != header) lines.fail("the header " + header, excerpt(first));
 

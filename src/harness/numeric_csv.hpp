@@ -25,7 +25,7 @@ struct NumericTable {
 
 /// Reads a file of exactly the given header line (names and commas, no blanks) and rows of as many
 /// numbers. `nan` and `inf` are numbers here. Lines end in LF or CRLF, the last one too: a file cut
-/// short is refused.
+/// short is refused. A byte order mark of UTF-8 at the beginning is skipped.
 /// @throws InputError naming file, line, column, what was expected and what was found
 NumericTable read_numeric_csv(const std::filesystem::path& file, const std::string& header,
                               std::size_t max_bytes);

@@ -144,6 +144,7 @@ TEST(BadScenarios, WaypointFilesAreRefusedWithTheirOwnLine) {
   };
   EXPECT_EQ(refused("t,x,y\n0,1,1.5\n2,0.5,1.5\n"), "no error");
   EXPECT_EQ(refused("t,x,y\r\n0,1,1.5\r\n2,0.5,1.5\r\n"), "no error");
+  EXPECT_EQ(refused("\xef\xbb\xbft,x,y\n0,1,1.5\n2,0.5,1.5\n"), "no error");
   EXPECT_EQ(refused(""), "way.csv: expected the header t,x,y, got an empty file");
   EXPECT_EQ(refused("t,x,y,z\n"), "way.csv:1: expected the header t,x,y, got t,x,y,z");
   EXPECT_EQ(refused("t,x,y\n0,1,1.5\n"), "way.csv:3: t: expected 2 or more waypoints, got 1");

@@ -83,6 +83,16 @@ TEST(TrajectoryCsv, ReadsWindowsLineBreaksAndNoRows) {
   EXPECT_TRUE(read_trajectory(directory.write("t.csv", "t,q1\n"), 1).q.empty());
 }
 
+TEST(TrajectoryCsv, SkipsAByteOrderMarkAtTheBeginningAlone) {
+  const TestDirectory directory;
+  const std::string mark = "\xef\xbb\xbf";
+  const Trajectory read = read_trajectory(directory.write("t.csv", mark + "t,q1\n0,0.5\n"), 1);
+  ASSERT_EQ(read.q.size(), 1U);
+  EXPECT_EQ(read.q[0](0), 0.5);
+  const fs::path twice = directory.write("t.csv", mark + mark + "t,q1\n0,0.5\n");
+  EXPECT_THROW(read_trajectory(twice, 1), InputError);
+}
+
 TEST(TrajectoryCsv, RefusesWhatItCannotReadNamingTheLine) {
   const TestDirectory directory;
   EXPECT_EQ(refusal(directory, "t,q1,q2\n0,1,2\n"), "no error");
