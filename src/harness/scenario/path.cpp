@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <numbers>
 #include <utility>
+#include <variant>
 
 namespace bqsa::harness {
 namespace {
@@ -82,6 +83,12 @@ double fraction_at(Profile profile, double s) {
 
 std::vector<double> chords(const Path& path) {
   return std::visit([](const auto& curve) { return chords_of(curve); }, path);
+}
+
+double sagitta(const Path& path) {
+  const auto* arc = std::get_if<Arc>(&path);
+  if (arc == nullptr) return 0;
+  return std::max(1e-7, 1.3e-8 * std::max(arc->u.norm(), arc->v.norm()));
 }
 
 }  // namespace bqsa::harness

@@ -50,4 +50,7 @@ double fraction_at(Profile profile, double s);
 /// arc of semi-axes up to 8 m, beyond that within 1.3e-8 of its larger semi-axis.
 std::vector<double> chords(const Path& path);
 
+/// That bound of the distance between the path and its chords [m].
+double sagitta(const Path& path);
+
 }  // namespace bqsa::harness

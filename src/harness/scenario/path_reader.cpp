@@ -25,7 +25,7 @@ constexpr std::size_t kMaxWaypointBytes = 100 * kMaxWaypoints;  // four numbers 
 
 Arc read_ellipse_arc(const YamlValue& value, const Units& units, int dimension) {
   if (dimension != 2) {
-    value.get("kind", "").fail("another kind, since the robot is spatial");
+    value.get("kind", "").fail("circle, line, polyline or waypoints, since the robot is spatial");
   }
   value.expect_keys({"kind", "center", "semi_axes", "rotation", "from", "to"});
   const Eigen::VectorXd semi_axes =

@@ -65,20 +65,22 @@ struct Chord {
   Vector3d a, b;    ///< end-points [m]
 };
 
-void check_reach(const YamlValue& value, const Chord& chord, const Reach& reach, int dimension,
-                 const Units& units) {
+/// @param sagitta  how far the path may be from its chords [m]
+void check_reach(const YamlValue& value, const Chord& chord, const Reach& reach, double sagitta,
+                 int dimension, const Units& units) {
+  constexpr int kDigits = 12;              // a path may leave the shell by very little
   const double slack = 1e-9 * reach.most;  // a path may end at the very edge
   const Vector3d near = nearest_on_segment(chord.a, chord.b, reach.center);
   const Vector3d far =
       (chord.a - reach.center).norm() > (chord.b - reach.center).norm() ? chord.a : chord.b;
   const bool too_far = (far - reach.center).norm() > reach.most + slack;
-  const bool too_near = (near - reach.center).norm() < reach.least - slack;
+  const bool too_near = (near - reach.center).norm() < reach.least - sagitta - slack;
   if (!too_far && !too_near) return;
   const Vector3d& bad = too_far ? far : near;
-  value.fail(fmt::format("a path within reach, {} to {} from {}", units.show(reach.least),
-                         units.show(reach.most), units.show(reach.center, dimension)),
+  value.fail(fmt::format("a path within reach, {} to {} from {}", units.show(reach.least, kDigits),
+                         units.show(reach.most, kDigits), units.show(reach.center, dimension)),
              fmt::format("{}, which is {} away", units.show(bad, dimension),
-                         units.show((bad - reach.center).norm())));
+                         units.show((bad - reach.center).norm(), kDigits)));
 }
 
 /// Part of the chord, from its start, that is free before it enters the shape it is known to hit.
@@ -112,13 +114,18 @@ void check_start(const YamlValue& value, const Problem& problem, const Units& un
   problem.chain.forward(problem.start, pose);
   for (const Link& link : problem.chain.links()) {
     for (const Obstacle& obstacle : problem.obstacles) {
-      const double depth = penetration(pose.p_WO.col(link.start), pose.p_WO.col(link.end),
-                                       problem.link_radius, obstacle.shape);
-      if (depth > 0) {
+      const double shortfall = penetration(pose.p_WO.col(link.start), pose.p_WO.col(link.end),
+                                           problem.link_radius + problem.margin, obstacle.shape);
+      if (!(shortfall > 0)) continue;
+      const double clearance = problem.margin - shortfall;
+      if (clearance < -Judge::kTouching) {
         value.fail("a start free of collision",
-                   fmt::format("link {}, {} deep in obstacle {}", link.number, units.show(depth),
-                               obstacle.name));
+                   fmt::format("link {}, {} deep in obstacle {}", link.number,
+                               units.show(-clearance), obstacle.name));
       }
+      value.fail("a start that keeps the margin of " + units.show(problem.margin),
+                 fmt::format("link {}, {} from obstacle {}", link.number,
+                             units.show(std::max(clearance, 0.0)), obstacle.name));
     }
   }
 }
@@ -138,7 +145,9 @@ void check_path(const YamlValue& value, const Problem& problem, const Task& task
     pieces.push_back({parameters[i], parameters[i + 1], point_at(task.path, parameters[i]),
                       point_at(task.path, parameters[i + 1])});
   }
-  for (const Chord& piece : pieces) check_reach(value, piece, reach, dimension, units);
+  for (const Chord& piece : pieces) {
+    check_reach(value, piece, reach, sagitta(task.path), dimension, units);
+  }
   if (start_distance > start_tolerance) {
     value.fail(fmt::format("a path that begins within {} of the tip at the start, {}",
                            units.show(start_tolerance), units.show(pose.tip(), dimension)),

@@ -10,8 +10,8 @@
 
 namespace bqsa::harness {
 
-/// Refuses a start beyond the joint limits or with a link in an obstacle. Within 1e-6 m of contact
-/// is touching, and free, as the judge has it.
+/// Refuses a start beyond the joint limits or with a link in an obstacle or nearer to one than the
+/// margin. Either may be missed by 1e-6 m: the judge calls that touching, and free.
 void check_start(const YamlValue& value, const Problem& problem, const Units& units);
 
 /// Refuses a path that begins farther than `start_tolerance` [m] from the tip at the start, leaves

@@ -138,7 +138,7 @@ Robot read_robot(const YamlValue& value, const Units& units) {
   if (chain.links().empty()) value.fail("at least one link of positive length", "none");
   JointLimits limits = read_limits(value, units, chain.joints());
   const std::optional<YamlValue> radius = value.find("link_radius");
-  return {std::move(chain), std::move(limits), radius ? units.non_negative_length(*radius) : 0.0};
+  return {std::move(chain), std::move(limits), radius ? units.radius_or_zero(*radius) : 0.0};
 }
 
 }  // namespace bqsa::harness

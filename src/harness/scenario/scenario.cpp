@@ -26,6 +26,7 @@ namespace {
 constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
 
 constexpr double kDefaultTolerance = 1e-3;  // [m]
+constexpr double kLeastTolerance = 1e-9;    // [m]
 
 std::string sha256_of(const std::string& bytes) {
   char digest[SHA256_DIGEST_STRING_LENGTH];
@@ -70,6 +71,9 @@ Scenario load_scenario(const std::filesystem::path& file) {
 
   const double tolerance = length_or("tolerance", kDefaultTolerance);
   if (!(tolerance > 0)) top.get("tolerance", "a length").fail("a positive length");
+  if (tolerance < kLeastTolerance) {
+    top.get("tolerance", "a length").fail("a length of at least " + units.show(kLeastTolerance));
+  }
 
   Robot robot = read_robot(top.get("robot", "a mapping with a kind"), units);
   const int dimension = robot.chain.dimension();

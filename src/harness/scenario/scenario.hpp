@@ -14,7 +14,7 @@ namespace bqsa::harness {
 struct Scenario {
   std::filesystem::path file;
   std::string description;
-  std::string sha256;  ///< of the file's bytes, as `sha256sum` prints it
+  std::string sha256;  ///< of the bytes of this file alone, as `sha256sum` prints it
   Problem problem;     ///< its name is the scenario's
 };
 

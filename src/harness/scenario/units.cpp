@@ -47,6 +47,14 @@ double Units::positive_length(const YamlValue& value) const {
   return metres;
 }
 
+double Units::radius_or_zero(const YamlValue& value) const {
+  const double metres = non_negative_length(value);
+  if (metres > 0 && metres < kMinLength) {
+    value.fail("a length of 0 or at least " + show(kMinLength));
+  }
+  return metres;
+}
+
 double Units::angle(const YamlValue& value) const {
   const double radians = value.number() * rad_per_angle;
   if (std::abs(radians) > kMaxAngle) {
@@ -56,8 +64,12 @@ double Units::angle(const YamlValue& value) const {
 }
 
 double Units::positive_velocity(const YamlValue& value) const {
-  const double velocity = angle(value);
+  const double velocity = value.number() * rad_per_angle;
   if (!(velocity > 0)) value.fail(fmt::format("a positive velocity in {}/s", angle_name));
+  if (velocity > kMaxAngle) {
+    value.fail(
+        fmt::format("a velocity of at most {:g} {}/s", kMaxAngle / rad_per_angle, angle_name));
+  }
   return velocity;
 }
 
@@ -81,8 +93,8 @@ Eigen::VectorXd Units::positive_lengths(const YamlValue& value, int size) const 
   return lengths;
 }
 
-std::string Units::show(double metres) const {
-  return fmt::format("{:g} {}", metres * per_metre, length_name);
+std::string Units::show(double metres, int digits) const {
+  return fmt::format("{:.{}g} {}", metres * per_metre, digits, length_name);
 }
 
 std::string Units::show(const Eigen::Vector3d& point, int dimension) const {

@@ -33,6 +33,7 @@ struct Units {
   double length(const YamlValue& value) const;               ///< any sign [m]
   double non_negative_length(const YamlValue& value) const;  ///< [m]
   double positive_length(const YamlValue& value) const;      ///< at least kMinLength [m]
+  double radius_or_zero(const YamlValue& value) const;       ///< 0 or at least kMinLength [m]
   double angle(const YamlValue& value) const;                ///< any sign [rad]
   double positive_velocity(const YamlValue& value) const;    ///< angle per second [rad/s]
 
@@ -43,7 +44,7 @@ struct Units {
   Eigen::VectorXd positive_lengths(const YamlValue& value, int size) const;
 
   /// For messages: metres in the file's unit, as `12.5 mm`.
-  std::string show(double metres) const;
+  std::string show(double metres, int digits = 6) const;
 
   /// For messages: a point in the file's unit, as `(1, 2, 3) mm`.
   std::string show(const Eigen::Vector3d& point, int dimension) const;

@@ -140,6 +140,9 @@ void YamlValue::expect_keys(const std::vector<std::string>& known) const {
     if (!entry.first.IsScalar()) child(entry.first, key_).fail("a key");
     const std::string& key = entry.first.Scalar();
     const std::string path = path_of(excerpt(key));
+    if (key == "<<") {
+      child(entry.first, path).fail("a known key", "a merge key: merge keys are not supported");
+    }
     if (std::find(known.begin(), known.end(), key) == known.end()) {
       child(entry.first, path)
           .fail(fmt::format("a known key, the nearest being {}", nearest(key, known)));
@@ -223,6 +226,10 @@ std::string YamlValue::name() const {
                     std::all_of(node_.Scalar().begin(), node_.Scalar().end(), allowed);
   if (!good) fail(fmt::format("a name of 1 to {} characters a-z, 0-9, _", kMaxName));
   return node_.Scalar();
+}
+
+bool YamlValue::is(std::string_view word) const {
+  return node_.IsScalar() && node_.Scalar() == word;
 }
 
 std::string YamlValue::choice(std::initializer_list<std::string_view> words) const {

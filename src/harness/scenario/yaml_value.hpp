@@ -65,6 +65,9 @@ class YamlValue {
   /// Text of 1 to 64 of the characters a-z, 0-9 and _.
   std::string name() const;
 
+  /// Whether this is the word.
+  bool is(std::string_view word) const;
+
   /// One of the words.
   std::string choice(std::initializer_list<std::string_view> words) const;
 

@@ -80,6 +80,33 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(FclCheck, TheInstalledLibraryPassesTheSelfTest) { EXPECT_NO_THROW(FclCheck::self_test()); }
 
+TEST(FclCheck, AgreesUpToTheLargestRatioOfSemiAxesThatAScenarioMayHave) {
+  Generator generator(5);
+  int hits = 0, misses = 0;
+  for (int k = 0; k < 20000; ++k) {
+    const double thickness = k % 2 == 0 ? 1e-5 : 1e-4;
+    const Eigen::Vector3d sheet(1e6 * thickness, 1e6 * thickness, thickness);
+    const Eigen::Vector3d needle(thickness, thickness, 1e6 * thickness);
+    const double radius = k % 3 == 0 ? 0.02 : 0;
+    const Ellipsoid ellipsoid(test_support::random_vector<3>(generator, 1),
+                              k % 4 < 2 ? sheet : needle,
+                              test_support::random_rotation<3>(generator));
+    const double side = k % 5 < 2 ? -1 : 1;
+    const double gap = radius + side * test_support::log_uniform(generator, 1e-6, 1);
+    const test_support::Segment link =
+        test_support::segment_at(generator, ellipsoid, 1, gap, k % 7 < 4);
+    const double exact = exact_distance(link.a, link.b, ellipsoid).clearance() - radius;
+    const FclCheck check({ellipsoid}, radius);
+    const bool hit = check.collides(link.a, link.b, 0);
+    const double distance = hit ? 0 : check.distance(link.a, link.b, 0);
+    ASSERT_EQ(contradiction(exact, FclAnswer{hit, distance}, 1), "")
+        << "case " << k << ", exact " << exact << ", hit " << hit;
+    ++(hit ? hits : misses);
+  }
+  EXPECT_GT(hits, 2000);
+  EXPECT_GT(misses, 5000);
+}
+
 TEST(FclCheck, AgreesForLinksOfAKilometreAndThinSheets) {
   Generator generator(3);
   int hits = 0;

@@ -309,6 +309,47 @@ TEST(Scenario, AStartThatTouchesIsFree) {
 }
 
 // The path is 2 m long and has 1 tick: nothing but the continuous test can see the sheet.
+TEST(Scenario, AStartMayBeAsNearAsTheMarginAndNoNearer) {
+  const TestDirectory directory;
+  const std::string text = R"(schema: bqsa-scenario/1
+name: near
+units: {length: m, angle: deg}
+robot: {kind: planar, links: [1], link_radius: 0.02}
+start: [0]
+task:
+  path: {kind: circle, center: [0, 0], radius: 1, axis_u: [1, 0], axis_v: [0, -1], from: 0, to: 30}
+  timing: {duration: 1, ticks: 10}
+obstacles:
+  - {name: stone, kind: ellipse, center: [0.5, 0.27], semi_axes: [0.2, 0.2]}
+margin: MARGIN
+)";
+  EXPECT_NO_THROW(directory.load(with(text, "MARGIN", "0.05")));
+  EXPECT_NO_THROW(directory.load(with(text, "MARGIN", "0.0500009")));
+  EXPECT_EQ(
+      message_of(directory, [&] { directory.load(with(text, "MARGIN", "0.051")); }),
+      "s.yaml:5: start: expected a start that keeps the margin of 0.051 m, got link 1, 0.05 m from "
+      "obstacle stone");
+}
+
+TEST(Scenario, ACircleAtTheEdgeOfReachIsWithinIt) {
+  const TestDirectory directory;
+  const std::string text = R"(schema: bqsa-scenario/1
+name: edge
+units: {length: m, angle: deg}
+robot: {kind: planar, links: [1]}
+start: [0]
+task:
+  path: {kind: circle, center: [0, 0], radius: 1, axis_u: [1, 0], axis_v: [0, 1], from: 0, to: 360}
+  timing: {duration: 1, ticks: 100}
+)";
+  EXPECT_NO_THROW(directory.load(text));
+  const std::string message = message_of(
+      directory, [&] { directory.load(with(text, "radius: 1,", "radius: 0.9999998,")); });
+  EXPECT_TRUE(message.starts_with("s.yaml:7: task.path: expected a path within reach, 1 m to 1 m"))
+      << message;
+  EXPECT_NE(message.find("which is 0.9999997"), std::string::npos) << message;  // of the chord
+}
+
 TEST(Scenario, APathThroughAThinSheetIsRefusedWhereverItStands) {
   const TestDirectory directory;
   std::mt19937 random(5);
