@@ -5,6 +5,7 @@
 
 #include "harness/judge/judge.hpp"
 #include "harness/program/commands.hpp"
+#include "harness/results/table.hpp"
 #include "harness/scenario/scenario.hpp"
 #include "harness/trajectory_csv.hpp"
 
@@ -26,7 +27,7 @@ void print_tip_error(const char* where, const TipError& error, std::ostream& out
 void print(const Judgement& judgement, const Problem& problem, std::ostream& out) {
   std::string verdict = judgement.success() ? "success" : "failure:";
   for (std::size_t i = 0; i < judgement.failures.size(); ++i) {
-    verdict += (i == 0 ? " " : ", ") + std::string(name_of(judgement.failures[i]));
+    verdict += (i == 0 ? " " : ", ") + verdict_of(name_of(judgement.failures[i]));
   }
   out << fmt::format("verdict: {}\n", verdict);
   out << fmt::format("rows: {} of {}\n", judgement.rows, problem.ticks + 1);
@@ -62,6 +63,7 @@ Status judge_command(const std::filesystem::path& scenario_file,
   console.out << fmt::format("scenario: {}\ntrajectory: {}\n", problem.name,
                              trajectory_file.string());
   print(judgement, problem, console.out);
+  console.out << success_legend();
   return strict && !judgement.success() ? kRunFailed : kOk;
 }
 

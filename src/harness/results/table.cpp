@@ -17,37 +17,24 @@ namespace {
 
 constexpr std::size_t kWidth = 120;
 
+constexpr std::string_view kMarks =
+    "+ success   x failure   ! the method's claim and the judge's verdict differ   ? no verdict   "
+    "- not applicable\n";
+
 constexpr std::string_view kLegend =
-    R"(+ success   x failure   ! the method's claim and the judge's verdict differ   - not applicable
-Success, decided from the joint trajectory alone: every row present and finite, from the given start; no link in an
-obstacle at or between ticks; largest tip error at ticks within the tolerance; joint limits and velocity limit (default
-15 deg a tick) kept. Self-collision is not judged.
-error       largest distance of the tip from x_d(t), from tick 1 on; between: on the straight joint motions in between
+    R"(judged      collides: a link in an obstacle; drifts: tip error at a tick above the tolerance; jumps: a joint step above
+            the velocity limit; breaks joint limits; incomplete: rows missing, too many or at wrong times; wrong start;
+            not finite: a number that is not; undecided: not proven free between ticks with the work allowed;
+            no verdict: the two checkers of the judge disagree, a failure of the harness and not of the method
+tip error   largest distance of the tip from x_d(t), from tick 1 on; between: on the straight joint motions in between
 clearance   smallest distance of a link to an obstacle, at or between ticks; negative inside; T: within 0.001 mm
+margin      The margin is asked of methods, not judged.
 max step    largest step of one joint in one tick
 time        wall clock of a tick, the first left out; only for successes
-claimed     what the method says of its run; nothing: it does not claim that all its motions are free
-(6, name)   link 6, counted from the base, and the obstacle of that name; x 12: cleared by the method in 12 ticks
+claimed     what the method says of its run; no claim: it does not claim that all its motions are free
+(6, name)   link of Denavit-Hartenberg row 6 (planar: link 6 from the base) and the obstacle of that name;
+            moved away: by the method, x 12: in 12 ticks
 )";
-
-/// The judge's word for a failure, as the verb of a verdict.
-std::string verdict_of(const std::string& failure) {
-  static const std::array<std::pair<Failure, const char*>, 9> kVerdicts{{
-      {Failure::kDisagreement, "JUDGES DISAGREE"},
-      {Failure::kNotFinite, "not finite"},
-      {Failure::kIncomplete, "incomplete"},
-      {Failure::kWrongStart, "wrong start"},
-      {Failure::kCollision, "collides"},
-      {Failure::kUndecided, "undecided"},
-      {Failure::kJump, "jumps"},
-      {Failure::kJointLimit, "breaks joint limits"},
-      {Failure::kDrift, "drifts"},
-  }};
-  for (const auto& [kind, verdict] : kVerdicts) {
-    if (failure == name_of(kind)) return verdict;
-  }
-  return failure;
-}
 
 bool claims_success(const TableRow& row) { return row.claim == name_of(Claim::kSuccess); }
 
@@ -56,14 +43,16 @@ bool gave_up(const TableRow& row) {
   return !claims_success(row) && row.claim != name_of(Claim::kNothing);
 }
 
-/// All that went wrong, the most telling first. A run that its method ended is not called
-/// incomplete.
+/// The judge contradicts itself: the harness failed, not the method.
+bool no_verdict(const TableRow& row) {
+  return std::find(row.failures.begin(), row.failures.end(), name_of(Failure::kDisagreement)) !=
+         row.failures.end();
+}
+
+/// All that went wrong, the most telling first.
 std::vector<std::string> verdicts(const TableRow& row) {
   std::vector<std::string> list;
-  for (const std::string& failure : row.failures) {
-    const bool ended = failure == name_of(Failure::kIncomplete) && gave_up(row);
-    list.push_back(ended ? row.claim : verdict_of(failure));
-  }
+  for (const std::string& failure : row.failures) list.push_back(verdict_of(failure));
   return list;
 }
 
@@ -95,11 +84,10 @@ struct Column {
   bool left = false;
 };
 
-constexpr std::array<Column, 8> kColumns{{
+constexpr std::array<Column, 7> kColumns{{
     {"method", "", true},
     {"judged", "", true},
-    {"error [mm]", "at ticks"},
-    {"error [mm]", "between"},
+    {"tip error [mm]", "at ticks | between"},
     {"clearance", "[mm]"},
     {"max step", "[deg]"},
     {"time per tick [us]", "median      p99"},
@@ -109,22 +97,26 @@ constexpr std::array<Column, 8> kColumns{{
 using Cells = std::array<std::string, kColumns.size()>;
 
 Cells cells_of(const TableRow& row) {
-  if (!row.applicable) return {row.variant, "n/a", "-", "-", "-", "-", "-", "-"};
+  if (!row.applicable) return {row.variant, "n/a", "-", "-", "-", "-", "-"};
   const std::vector<std::string> wrong = verdicts(row);
   const bool moved = row.rows > 1;
-  const std::string clearance = millimetres(row.clearance_m) + (row.touching ? " T" : "");
+  const std::string tip_error = fmt::format("{:>8} | {:>7}", millimetres(row.tip_error_at_ticks_m),
+                                            millimetres(row.tip_error_between_ticks_m));
+  const bool contact = row.touching && std::abs(row.clearance_m) <= Judge::kTouching;
+  const std::string clearance =
+      (contact ? "0" : millimetres(row.clearance_m)) + (row.touching ? " T" : "");
   return {row.variant,
           row.success ? "success" : wrong.front(),
-          moved ? millimetres(row.tip_error_at_ticks_m) : "-",
-          moved ? millimetres(row.tip_error_between_ticks_m) : "-",
+          moved ? tip_error : "-",
           clearance,
           moved ? degrees(row.max_joint_step_rad) : "-",
           time_cell(row),
-          row.claim.substr(0, row.claim.find(' '))};
+          row.claim == name_of(Claim::kNothing) ? "no claim" : row.claim};
 }
 
 char mark_of(const TableRow& row) {
   if (!row.applicable) return '-';
+  if (no_verdict(row)) return '?';
   if (!row.claim_holds) return '!';
   return row.success ? '+' : 'x';
 }
@@ -148,7 +140,7 @@ std::string note(const std::string& label, const std::vector<std::string>& items
 std::string notes_of(const TableRow& row) {
   if (!row.applicable) return note(row.claim_detail, {});
   std::string text;
-  if (!row.claim_holds) {
+  if (!row.claim_holds && !no_verdict(row)) {
     text += note(claims_success(row) ? "! CLAIMED SUCCESS, JUDGED A FAILURE"
                                      : "! CLAIMED " + row.claim + ", JUDGED A SUCCESS",
                  {});
@@ -156,20 +148,19 @@ std::string notes_of(const TableRow& row) {
   const std::vector<std::string> wrong = verdicts(row);
   std::vector<std::string> also;
   for (std::size_t i = 1; i < wrong.size(); ++i) {
-    if (wrong[i] != row.claim) also.push_back(wrong[i]);  // the claim has its own line below
+    const bool said = gave_up(row) && row.failures[i] == name_of(Failure::kIncomplete);
+    if (!said) also.push_back(wrong[i]);
   }
   if (!also.empty()) text += note("also:", also);
-  if (!row.disagreement.empty()) text += note("judges:", {row.disagreement});
-  if (gave_up(row)) {
-    text += note(fmt::format("{}: {}", row.claim, row.claim_detail), {});
-  }
+  if (!row.disagreement.empty()) text += note("the judge's checkers disagree:", {row.disagreement});
+  if (gave_up(row) && !row.claim_detail.empty()) text += note("reason: " + row.claim_detail, {});
   if (!row.success && row.rows < row.ticks + 1) {
     text += note(
         fmt::format("figures cover the first {} of {} ticks", std::max(row.rows - 1, 0), row.ticks),
         {});
   }
   if (!row.collided.empty()) text += note("collided:", row.collided);
-  if (!row.clamped.empty()) text += note("cleared: ", row.clamped);
+  if (!row.clamped.empty()) text += note("moved away:", row.clamped);
   if (row.guard_fired > 0) {
     text += note(fmt::format("guard fired in {} of {} ticks", row.guard_fired, row.ticks), {});
   }
@@ -249,6 +240,31 @@ bool same_build(const TableRow& a, const TableRow& b) { return a.build == b.buil
 
 }  // namespace
 
+std::string verdict_of(const std::string& failure) {
+  static const std::array<std::pair<Failure, const char*>, 9> kVerdicts{{
+      {Failure::kDisagreement, "no verdict"},
+      {Failure::kNotFinite, "not finite"},
+      {Failure::kIncomplete, "incomplete"},
+      {Failure::kWrongStart, "wrong start"},
+      {Failure::kCollision, "collides"},
+      {Failure::kUndecided, "undecided"},
+      {Failure::kJump, "jumps"},
+      {Failure::kJointLimit, "breaks joint limits"},
+      {Failure::kDrift, "drifts"},
+  }};
+  for (const auto& [kind, verdict] : kVerdicts) {
+    if (failure == name_of(kind)) return verdict;
+  }
+  return failure;
+}
+
+std::string_view success_legend() {
+  return R"(Success, decided from the joint trajectory alone: every row present and finite, from the given start; no link in an
+obstacle at or between ticks; largest tip error at ticks within the tolerance; joint limits and velocity limit (default
+15 deg a tick) kept. Self-collision is not judged.
+)";
+}
+
 std::string render_table(const std::vector<TableRow>& all_rows) {
   if (all_rows.empty()) return "no runs\n";
   const std::vector<TableRow> rows = last_runs(all_rows);
@@ -269,13 +285,15 @@ std::string render_table(const std::vector<TableRow>& all_rows) {
     for (const TableRow& row : rows) {
       if (!same_scenario(row, first)) continue;
       if (std::isfinite(row.start_error_m)) {
-        start = fmt::format(", start {} mm off the path", millimetres(row.start_error_m));
+        start = fmt::format(", start {} off the path", length_text(row.start_error_m));
       }
       block += line_of(mark_of(row), cells_of(row), widths) + notes_of(row);
     }
     text += fmt::format("{}: {}{}\n", scenario_title(first, rows), first.problem, start);
     text += line_of(' ', heads, widths) + line_of(' ', units, widths) + block + '\n';
   }
+  text += kMarks;
+  text += success_legend();
   text += kLegend;
   text += time_notes(rows);
   for (const TableRow& row : firsts(rows, same_build)) text += "made by " + row.build + '\n';

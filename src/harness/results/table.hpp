@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "harness/results/table_row.hpp"
@@ -14,5 +15,11 @@ namespace bqsa::harness {
 /// stand in the order of first appearance; of several runs of the same scenario file and
 /// variant the last counts. Files of the same name with other bytes stand apart.
 std::string render_table(const std::vector<TableRow>& rows);
+
+/// The table's word for a failure of the judge, `collides` for `collision`.
+std::string verdict_of(const std::string& failure);
+
+/// What success means, in lines.
+std::string_view success_legend();
 
 }  // namespace bqsa::harness

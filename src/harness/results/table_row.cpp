@@ -30,15 +30,15 @@ std::string counted(long count, const char* thing) {
 
 std::string problem_text(const RecordValue& problem) {
   std::string text = fmt::format(
-      "{}, {}, {}, {} of {:.4g} ms, tolerance {:.4g} mm",
-      counted(problem["joints"].integer(), "joint"), counted(problem["links"].integer(), "link"),
+      "{}, {}, {}, {} of {:.4g} ms, tolerance {}", counted(problem["joints"].integer(), "joint"),
+      counted(problem["links"].integer(), "link"),
       counted(std::ssize(problem["obstacles"].list()), "obstacle"),
       counted(problem["ticks"].integer(), "tick"), 1e3 * problem["dt_s"].number(),
-      1e3 * problem["tolerance_m"].number());
+      length_text(problem["tolerance_m"].number()));
   const double margin = problem["margin_m"].number();
   const double radius = problem["link_radius_m"].number();
-  if (margin > 0) text += fmt::format(", margin {:.4g} mm", 1e3 * margin);
-  if (radius > 0) text += fmt::format(", link radius {:.4g} mm", 1e3 * radius);
+  if (margin > 0) text += fmt::format(", margin {}", length_text(margin));
+  if (radius > 0) text += fmt::format(", link radius {}", length_text(radius));
   return text;
 }
 
@@ -63,7 +63,7 @@ std::vector<std::string> by_weight(std::vector<std::string> failures) {
 void read_claim(const RecordValue& claimed, TableRow& row) {
   row.claim = claimed["status"].text();
   if (row.claim == name_of(Claim::kInfeasible)) {
-    row.claim += fmt::format(" at tick {}", claimed["tick"].integer());
+    row.claim = fmt::format("gave up at tick {}", claimed["tick"].integer());
     row.claim_detail = claimed["reason"].text();
     if (!claimed["link"].is_null()) {
       row.claim_detail += fmt::format(", link {}", claimed["link"].integer());
@@ -117,6 +117,11 @@ void read_run(const RecordValue& record, TableRow& row) {
 }
 
 }  // namespace
+
+std::string length_text(double metres) {
+  constexpr double kLong = 10;
+  return metres >= kLong ? fmt::format("{:.4g} m", metres) : fmt::format("{:.4g} mm", 1e3 * metres);
+}
 
 TableRow parse_run_record(std::string_view text) {
   const auto json = nlohmann::json::parse(text, nullptr, /* allow_exceptions = */ false);

@@ -26,7 +26,7 @@ struct TableRow {
   bool applicable = true;
   bool success = false;  ///< as judged
   bool claim_holds = true;
-  std::string claim;                  ///< `success`, `infeasible at tick 7`, ...
+  std::string claim;                  ///< `success`, `gave up at tick 7`, ...
   std::string claim_detail;           ///< why, if the method says so
   std::vector<std::string> failures;  ///< names of the judge's failures, the most telling first
   std::string disagreement;
@@ -49,6 +49,9 @@ struct TableRow {
   std::vector<std::string>
       against_times;  ///< why the times are only indicative; empty if they count
 };
+
+/// A length in millimetres, from 10 m on in metres, with its unit.
+std::string length_text(double metres);
 
 /// @throws InputError if the text is cut short, is not a record of schema bqsa-run/1, or contradicts
 ///   itself about success

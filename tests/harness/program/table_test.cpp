@@ -52,8 +52,9 @@ std::string line_of(const std::string& table, const std::string& variant) {
 
 TEST(Table, ShowsASuccessWithItsFiguresInMillimetresDegreesAndMicroseconds) {
   const std::string line = line_of(render_table({success("a", "good")}), "good");
-  EXPECT_THAT(line, ::testing::MatchesRegex(
-                        R"(\+   good +success +0\.00123 +0\.02 +12\.3 +1\.15 +4\.5 +65 +success)"));
+  EXPECT_THAT(line,
+              ::testing::MatchesRegex(
+                  R"(\+   good +success +0\.00123 \| +0\.02 +12\.3 +1\.15 +4\.5 +65 +success)"));
 }
 
 TEST(Table, SaysThatAMethodLies) {
@@ -79,13 +80,13 @@ TEST(Table, NamesEveryFailureTheWorstFirst) {
 
 TEST(Table, SaysWhereAnHonestMethodGaveUp) {
   TableRow row = failure("honest", {Failure::kIncomplete});
-  row.claim = "infeasible at tick 23";
+  row.claim = "gave up at tick 23";
   row.claim_detail = "no free motion, link 6, obstacle";
   row.claim_holds = true;
   row.rows = 23;
   const std::string table = render_table({row});
-  EXPECT_THAT(line_of(table, "honest"), ::testing::StartsWith("x   honest  infeasible at tick 23"));
-  EXPECT_THAT(table, HasSubstr("infeasible at tick 23: no free motion, link 6, obstacle"));
+  EXPECT_THAT(line_of(table, "honest"), ::testing::StartsWith("x   honest  incomplete "));
+  EXPECT_THAT(table, HasSubstr("reason: no free motion, link 6, obstacle"));
   EXPECT_THAT(table, HasSubstr("figures cover the first 22 of 400 ticks"));
   EXPECT_THAT(table, Not(HasSubstr("JUDGED A FAILURE")));
 }
@@ -103,7 +104,7 @@ TEST(Table, ListsPairsBelowTheRow) {
   row.changed = "gain=3";
   const std::string table = render_table({row});
   EXPECT_THAT(table, HasSubstr("collided: (5, obstacle), (7, object)\n"));
-  EXPECT_THAT(table, HasSubstr("cleared:  (6, obstacle) x 12\n"));
+  EXPECT_THAT(table, HasSubstr("moved away: (6, obstacle) x 12\n"));
   EXPECT_THAT(table, HasSubstr("guard fired in 2 of 400 ticks\n"));
   EXPECT_THAT(table, HasSubstr("with gain=3\n"));
 }
@@ -116,6 +117,34 @@ TEST(Table, FlagsTouchingAndIndicativeTimes) {
   EXPECT_THAT(line_of(table, "good"), HasSubstr("12.3 T"));
   EXPECT_THAT(line_of(table, "good"), HasSubstr("~"));
   EXPECT_THAT(table, HasSubstr("~ times only indicative: assertions on"));
+}
+
+TEST(Table, CallsADisagreementOfTheJudgesNoVerdict) {
+  TableRow row = failure("unlucky", {Failure::kDisagreement});
+  row.disagreement = "tick 3";
+  const std::string table = render_table({row});
+  EXPECT_THAT(line_of(table, "unlucky"), ::testing::StartsWith("?   unlucky  no verdict"));
+  EXPECT_THAT(table, HasSubstr("the judge's checkers disagree: tick 3"));
+  EXPECT_THAT(table, Not(HasSubstr("CLAIMED SUCCESS")));
+}
+
+TEST(Table, PrintsAClearanceOfContactAsZero) {
+  TableRow row = success("a", "good");
+  row.touching = true;
+  row.clearance_m = -4e-7;
+  EXPECT_THAT(line_of(render_table({row}), "good"), HasSubstr(" 0 T "));
+}
+
+TEST(Table, LongLengthsAreInMetres) {
+  EXPECT_EQ(length_text(9.5), "9500 mm");
+  EXPECT_EQ(length_text(12.5), "12.5 m");
+}
+
+TEST(Table, TheLegendExplainsEveryVerdict) {
+  const std::string table = render_table({success("a", "good")});
+  for (int i = 0; i <= static_cast<int>(Failure::kDrift); ++i) {
+    EXPECT_THAT(table, HasSubstr(verdict_of(name_of(static_cast<Failure>(i)))));
+  }
 }
 
 TEST(Table, ShowsNotApplicableWithItsReason) {
@@ -155,7 +184,7 @@ TEST(Table, RunsOfAChangedScenarioFileStandApart) {
 TEST(Table, FitsItsWidthWithManyPairs) {
   TableRow row = failure("test_point@1a2b3c4d", {Failure::kCollision});
   for (int i = 1; i <= 60; ++i) row.collided.push_back(std::to_string(i) + " obstacle");
-  row.claim = "infeasible at tick 100000";
+  row.claim = "gave up at tick 100000";
   std::istringstream in(render_table({row}));
   int lines = 0;
   for (std::string line; std::getline(in, line); ++lines) EXPECT_LE(line.size(), 120u) << line;
