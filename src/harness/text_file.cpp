@@ -47,7 +47,8 @@ StagedTextFile::StagedTextFile(const fs::path& file, std::string_view content)
     : file_(file), temporary_(file) {
   temporary_ += fmt::format(".{}.tmp", getpid());
   std::error_code unknown;
-  if (fs::is_directory(file, unknown)) refuse(file, std::make_error_code(std::errc::is_a_directory));
+  if (fs::is_directory(file, unknown))
+    refuse(file, std::make_error_code(std::errc::is_a_directory));
   errno = 0;
   std::ofstream stream(temporary_, std::ios::binary | std::ios::trunc);
   stream.write(content.data(), static_cast<std::streamsize>(content.size()));

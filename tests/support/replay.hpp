@@ -70,8 +70,7 @@ inline std::set<LinkAndObstacle> sampled_hits(const Problem& problem,
       for (const Link& link : problem.chain.links()) {
         for (std::size_t j = 0; j < problem.obstacles.size(); ++j) {
           const Ellipsoid& shape = problem.obstacles[j].shape;
-          const DistanceOracle oracle(pose.p_WO.col(link.start), pose.p_WO.col(link.end),
-                                               shape);
+          const DistanceOracle oracle(pose.p_WO.col(link.start), pose.p_WO.col(link.end), shape);
           const auto least_norm = static_cast<double>(oracle.least_norm());
           const bool surely_clear = (least_norm - 1) * shape.semi_axes().minCoeff() > clearance;
           if (surely_clear) continue;

@@ -70,10 +70,12 @@ void declare(CLI::App& app, CommandLine& line) {
   CLI::App* run = add_command(app, "run", "Run methods on scenarios, judge them, print the table");
   run->add_option("SCENARIO", line.run.scenarios, "Scenario files")->required();
   run->add_option("--method,-m", line.run.methods,
-                  "Method with parameters, M[:key=value,...]; repeatable [all methods]")
+                  "Method with parameters, M[:key=value,...], as bqsa:increment=1e-3; see list;\n"
+                  "repeatable [all methods]")
       ->allow_extra_args(false);
   run->add_option("--out,-o", line.run.directory,
-                  "Results directory; runs are added to an existing one")
+                  "Results directory; runs are added to an existing one, and the last of a\n"
+                  "scenario and method counts, in the table and as trajectory")
       ->required();
   run->add_flag("--strict", line.run.strict, "Exit with 1 if a run is not judged a success");
   run->add_flag("--quiet,-q", line.run.quiet, "Print neither progress nor table");
@@ -91,8 +93,11 @@ void declare(CLI::App& app, CommandLine& line) {
 
   CLI::App* judge = add_command(app, "judge", "Judge any trajectory of a scenario");
   judge->add_option("SCENARIO", line.scenario, "Scenario file")->required();
-  judge->add_option("TRAJECTORY", line.trajectory, "CSV file t,q1..qn [s, rad]")->required();
-  judge->add_flag("--strict", line.strict, "Exit with 1 if it is not a success");
+  judge
+      ->add_option("TRAJECTORY", line.trajectory,
+                   "CSV file t,q1..qn [s, rad], one row for each of the ticks and the start")
+      ->required();
+  judge->add_flag("--strict", line.strict, "Exit with 1 if it is not a success [0 all the same]");
   judge->callback([&line] {
     line.command = [&line](const Console& console) {
       return judge_command(line.scenario, line.trajectory, line.strict, console);

@@ -40,9 +40,13 @@ void print(const Judgement& judgement, const Problem& problem, std::ostream& out
                        contact.first_tick, contact.ticks,
                        contact.at_tick ? "" : ", only between ticks");
   }
-  out << fmt::format("clearance [mm]: {:.4g}, at ticks {:.4g}{}\n",
-                     judgement.clearance / kMillimetre, judgement.clearance_at_ticks / kMillimetre,
-                     judgement.touching ? "; touching (within 0.001 mm of contact)" : "");
+  if (judgement.rows == 0) return;  // nothing was measured
+  if (!problem.obstacles.empty()) {
+    out << fmt::format("clearance [mm]: {:.4g}, at ticks {:.4g}{}\n",
+                       judgement.clearance / kMillimetre,
+                       judgement.clearance_at_ticks / kMillimetre,
+                       judgement.touching ? "; touching (within 0.001 mm of contact)" : "");
+  }
   print_tip_error("at ticks", judgement.at_ticks, out);
   print_tip_error("between ticks", judgement.between_ticks, out);
   out << fmt::format("tip error of the start [mm]: {:.4g}; tolerance at ticks: {:.4g}\n",

@@ -81,6 +81,7 @@ void Console::error(std::string_view message) const {
 }
 
 Status run_command(const RunOptions& options, const Console& console) {
+  if (options.directory.empty()) throw InputError("--out: expected a directory, got nothing");
   const std::vector<MethodSpec> specs = chosen_methods(options.methods);
   std::vector<std::string> refused;
   const std::vector<Scenario> scenarios = load_all(options.scenarios, console, refused);

@@ -12,7 +12,7 @@ Status validate_command(const std::vector<std::filesystem::path>& files, const C
   for (const std::filesystem::path& file : files) {
     try {
       const Problem problem = load_scenario(file).problem;
-      console.out << fmt::format("{}: valid: {}, {} joints, {} obstacles, {} ticks\n",
+      console.out << fmt::format("{}: valid: {}, joints: {}, obstacles: {}, ticks: {}\n",
                                  file.string(), problem.name, problem.chain.joints(),
                                  problem.obstacles.size(), problem.ticks);
     } catch (const InputError& error) {
