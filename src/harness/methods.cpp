@@ -7,13 +7,13 @@
 namespace bqsa::harness {
 
 const std::vector<MethodEntry>& methods() {
-  static const std::vector<MethodEntry> list = {
+  static const std::vector<MethodEntry> kMethods = {
       baselines::plain_tracking_method(),
       bqsa_method(),
       bqsa_paper_method(),
       baselines::test_point_method(),
   };
-  return list;
+  return kMethods;
 }
 
 }  // namespace bqsa::harness

@@ -13,12 +13,14 @@ namespace {
 
 std::vector<Ellipsoid> shapes_of(const std::vector<Obstacle>& obstacles) {
   std::vector<Ellipsoid> shapes;
+  shapes.reserve(obstacles.size());
   for (const Obstacle& obstacle : obstacles) shapes.push_back(obstacle.shape);
   return shapes;
 }
 
 std::vector<std::string> names_of(const std::vector<Obstacle>& obstacles) {
   std::vector<std::string> names;
+  names.reserve(obstacles.size());
   for (const Obstacle& obstacle : obstacles) names.push_back(obstacle.name);
   return names;
 }
@@ -37,7 +39,7 @@ std::string contradiction(double exact_clearance, bool fcl_hit) {
 }
 
 std::string contradiction(double exact_clearance, const FclAnswer& fcl, double size) {
-  const std::string verdict = contradiction(exact_clearance, fcl.hit);
+  std::string verdict = contradiction(exact_clearance, fcl.hit);
   if (!verdict.empty() || fcl.hit) return verdict;
   // FCL marks contact by a negative distance, and the exact depth has no counterpart in FCL.
   const double distance = std::max(exact_clearance, 0.0);
