@@ -8,7 +8,8 @@ cd "$(dirname "$0")/.."
 missing=()
 for step in "$@"; do
   while read -r package; do
-    status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
+    status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null) ||
+      status=unknown
     [ "$status" = installed ] || missing+=("$package")
   done < <(awk -v step="$step" '!/^#/ && $2 == step { print $1 }' packages.txt)
 done
