@@ -13,6 +13,7 @@ void BackwardSearch::prepare(const Problem& problem) {
 void BackwardSearch::step(const StepInput& input, StepOutput& output) {
   output = {};
   increments_left_ = settings_.max_increments;
+  go_to(input.tick);
 
   if (!predict(input)) return hold(input.q, Infeasible::kDiverged, 0, -1, output);  // 1, 2
   const JointVector q_predicted = q_;
@@ -59,7 +60,7 @@ bool BackwardSearch::predict(const StepInput& input) {
 
 MotionCertificate::Result BackwardSearch::finish(const StepInput& input, const JointVector&,
                                                  StepOutput&) {
-  return certificate_.certify(input.q, q_);
+  return certificate_.certify(input.tick, input.q, q_);
 }
 
 JointVector BackwardSearch::hybrid_step(const JointVector& q, const JointVector& weights,

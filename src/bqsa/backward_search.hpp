@@ -16,7 +16,7 @@ namespace bqsa {
 ///   3. backward search, i = n .. 1: quadratic category of link i with every obstacle
 ///   4. joints clamping: links that hit are moved out by self-motions
 ///   5. what the variant makes of the clamped configuration
-///   6. the motion from the last tick is certified; if that fails, 3 to 5 again with twice the distance
+///   6. the motion from the last tick is certified, the obstacles' own included; if that fails, 3 to 5 again with twice the distance
 ///
 /// A tick that fails holds the last safe configuration and says why. Variants supply 3, 4 and 5.
 class BackwardSearch : public ReactiveMethod {
@@ -26,6 +26,9 @@ class BackwardSearch : public ReactiveMethod {
 
  protected:
   explicit BackwardSearch(const BqsaSettings& settings) : settings_(settings) {}
+
+  /// From now on the obstacles are where they are at this tick.
+  virtual void go_to(int tick) = 0;
 
   /// From now on links hit what is closer than this [m].
   virtual void keep(double distance) = 0;

@@ -39,6 +39,7 @@ class BqsaPlanar final : public BackwardSearch {
     bool open = true;
   };
 
+  void go_to(int tick) override { obstacles_.go_to(tick); }
   void keep(double distance) override { obstacles_.keep(distance); }
   Infeasible free_links(const StepInput& input, StepOutput& output) override;
   MotionCertificate::Result finish(const StepInput& input, const JointVector& q_predicted,

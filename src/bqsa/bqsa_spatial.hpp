@@ -23,6 +23,7 @@ class BqsaSpatial final : public BackwardSearch {
   void prepare(const Problem& problem) override;
 
  private:
+  void go_to(int tick) override { obstacles_.go_to(tick); }
   void keep(double distance) override { obstacles_.keep(distance); }
   Infeasible free_links(const StepInput& input, StepOutput& output) override;
 

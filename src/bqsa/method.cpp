@@ -1,5 +1,6 @@
 #include "bqsa/method.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace bqsa {
@@ -10,6 +11,9 @@ std::string why_not_applicable(const Capabilities& capabilities, const Problem& 
     return "spatial problems not supported yet";
   if (problem.link_radius > 0 && !capabilities.link_radius) return "link_radius not supported yet";
   if (problem.margin > 0 && !capabilities.margin) return "margin not supported yet";
+  const bool moving = std::any_of(problem.obstacles.begin(), problem.obstacles.end(),
+                                  [](const Obstacle& obstacle) { return obstacle.moves(); });
+  if (moving && !capabilities.moving) return "moving obstacles not supported yet";
   return {};
 }
 

@@ -22,6 +22,7 @@ struct Capabilities {
   bool spatial = false;      ///< problems of dimension 3
   bool link_radius = false;  ///< takes problems whose links have a radius
   bool margin = false;       ///< takes problems that ask for a margin
+  bool moving = false;       ///< takes problems with moving obstacles
 };
 
 /// Why a method does not apply to a problem; empty if it does.

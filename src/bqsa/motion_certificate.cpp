@@ -32,7 +32,8 @@ void MotionCertificate::assign(const Problem& problem, double clearance, WorkCou
   pairs_.reserve(all * (kMaxHalvings + 2));
 }
 
-MotionCertificate::Result MotionCertificate::certify(const JointVector& q0, const JointVector& q1) {
+MotionCertificate::Result MotionCertificate::certify(int /*tick*/, const JointVector& q0,
+                                                     const JointVector& q1) {
   const SerialChain& chain = problem_->chain;
   q0_ = q0;
   dq_ = q1 - q0;

@@ -41,8 +41,8 @@ class MotionCertificate {
     int obstacle = -1;  ///< its obstacle, else -1
   };
 
-  /// Does not allocate.
-  Result certify(const JointVector& q0, const JointVector& q1);
+  /// The motion from q0 at the tick before `tick` to q1 at `tick`. Does not allocate.
+  Result certify(int tick, const JointVector& q0, const JointVector& q1);
 
  private:
   /// Parts shorter than 2^-kMaxHalvings of the motion are not halved again.

@@ -1,5 +1,7 @@
 #include "bqsa/obstacle_field.hpp"
 
+#include <utility>
+
 namespace bqsa {
 namespace {
 
@@ -13,8 +15,22 @@ void ObstacleField<Dim>::assign(const std::vector<Obstacle>& obstacles, WorkCoun
   counters_ = &counters;
   distance_ = 0;
   shapes_.clear();
+  movers_.clear();
+  const EllipsoidN<Dim>* const kind = nullptr;
   for (const Obstacle& obstacle : obstacles) {
-    shapes_.push_back(as_seen(obstacle.shape, static_cast<const EllipsoidN<Dim>*>(nullptr)));
+    if (obstacle.moves()) {
+      Mover mover{shapes_.size(), {}};
+      for (const Ellipsoid& shape : obstacle.motion) mover.motion.push_back(as_seen(shape, kind));
+      movers_.push_back(std::move(mover));
+    }
+    shapes_.push_back(as_seen(obstacle.at(0), kind));
+  }
+}
+
+template <int Dim>
+void ObstacleField<Dim>::go_to(int tick) {
+  for (const Mover& mover : movers_) {
+    shapes_[mover.obstacle] = mover.motion[static_cast<std::size_t>(tick)];
   }
 }
 

@@ -16,9 +16,12 @@ namespace bqsa {
 template <int Dim>
 class ObstacleField {
  public:
-  /// Takes over the obstacles; planar fields take the plane section of each. Quadratics are counted
-  /// in `counters`, which must outlive the field. May allocate.
+  /// Takes over the obstacles, as they are at tick 0; planar fields take the plane section of each.
+  /// Quadratics are counted in `counters`, which must outlive the field. May allocate.
   void assign(const std::vector<Obstacle>& obstacles, WorkCounters& counters);
+
+  /// From now on the obstacles are where they are at this tick. Does not allocate.
+  void go_to(int tick);
 
   /// From now on a link closer than this [m], by the proven bound `separation`, counts as hitting.
   void keep(double distance) { distance_ = distance; }
@@ -34,7 +37,13 @@ class ObstacleField {
  private:
   bool hit(const ChainPose& pose, const Link& link, int obstacle) const;
 
+  struct Mover {
+    std::size_t obstacle;                 ///< index
+    std::vector<EllipsoidN<Dim>> motion;  ///< at every tick
+  };
+
   std::vector<EllipsoidN<Dim>> shapes_;
+  std::vector<Mover> movers_;
   double distance_ = 0;
   WorkCounters* counters_ = nullptr;
 };

@@ -16,7 +16,18 @@ namespace bqsa {
 /// An obstacle that no link may enter. Planar problems hold ellipses as `embedded` ellipsoids.
 struct Obstacle {
   std::string name;
-  Ellipsoid shape;
+  Ellipsoid shape;  ///< at t = 0
+
+  /// Of a moving obstacle: the shape at the ticks 0 .. ticks, its semi-axes always the same; empty if
+  /// it is at rest. From tick to tick the centre moves evenly on a straight line while the axes turn
+  /// evenly about one fixed direction, by the smaller of the two angles that lead from one to the
+  /// other. This is the motion that has to be avoided, between the ticks too.
+  std::vector<Ellipsoid> motion = {};
+
+  bool moves() const { return !motion.empty(); }
+  const Ellipsoid& at(int tick) const {
+    return motion.empty() ? shape : motion[static_cast<std::size_t>(tick)];
+  }
 };
 
 /// Bounds a joint; empty vectors mean unlimited.
@@ -30,7 +41,7 @@ struct JointLimits {
 inline constexpr double kDefaultMaxStep = 15.0 * std::numbers::pi / 180.0;
 
 /// Follow x_d(t) with the tip from `start` on, no link in any obstacle at any time. SI units, frame
-/// W.
+/// W. Path and motions are known beforehand, and every method may look ahead.
 struct Problem {
   std::string name;
   SerialChain chain;

@@ -55,7 +55,7 @@ TEST(MotionCertificate, WhatItCertifiesKeepsItsClearanceInDenseSamples) {
     const int n = problem.chain.joints();
     const JointVector q0 = random_joints(generator, n, 2);
     const JointVector q1 = q0 + random_joints(generator, n, log_uniform(generator, 1e-3, 1));
-    const MotionCertificate::Result result = certificate.certify(q0, q1);
+    const MotionCertificate::Result result = certificate.certify(1, q0, q1);
     const auto hits = test_support::sampled_hits(problem, {q0, q1}, 100, clearance);
     if (hits.empty()) ++sampled_free;
     if (result.certified) {
@@ -86,11 +86,11 @@ TEST(MotionCertificate, RefusesAMotionThatTunnelsThroughAThinSheet) {
   further << 0.3;
   EXPECT_TRUE(test_support::sampled_hits(problem, {below, above}, 0).empty())
       << "both ends must be free, or the test shows nothing";
-  const MotionCertificate::Result result = certificate.certify(below, above);
+  const MotionCertificate::Result result = certificate.certify(1, below, above);
   EXPECT_FALSE(result.certified);
   EXPECT_EQ(result.link, 1);
   EXPECT_EQ(result.obstacle, 0);
-  EXPECT_TRUE(certificate.certify(above, further).certified);
+  EXPECT_TRUE(certificate.certify(1, above, further).certified);
 }
 
 TEST(MotionCertificate, SeesTheArcBeyondTheChord) {
@@ -102,7 +102,7 @@ TEST(MotionCertificate, SeesTheArcBeyondTheChord) {
   certificate.assign(problem, 0, counters);
   const double eighth = std::numbers::pi / 4;
   EXPECT_FALSE(
-      certificate.certify(JointVector::Constant(1, -eighth), JointVector::Constant(1, eighth))
+      certificate.certify(1, JointVector::Constant(1, -eighth), JointVector::Constant(1, eighth))
           .certified);
 }
 
@@ -113,9 +113,9 @@ TEST(MotionCertificate, CertifiesAWithdrawalFromContact) {
   MotionCertificate certificate;
   certificate.assign(problem, 0, counters);
   const JointVector near = JointVector::Zero(1), away = JointVector::Constant(1, -0.2);
-  EXPECT_TRUE(certificate.certify(near, away).certified);
-  EXPECT_TRUE(certificate.certify(away, near).certified);
-  EXPECT_FALSE(certificate.certify(away, JointVector::Constant(1, 1e-4)).certified);
+  EXPECT_TRUE(certificate.certify(1, near, away).certified);
+  EXPECT_TRUE(certificate.certify(1, away, near).certified);
+  EXPECT_FALSE(certificate.certify(1, away, JointVector::Constant(1, 1e-4)).certified);
 }
 
 TEST(MotionCertificate, CertifiesAnythingWithoutObstacles) {
@@ -123,7 +123,7 @@ TEST(MotionCertificate, CertifiesAnythingWithoutObstacles) {
   WorkCounters counters;
   MotionCertificate certificate;
   certificate.assign(problem, 0, counters);
-  EXPECT_TRUE(certificate.certify(JointVector::Zero(2), JointVector::Ones(2)).certified);
+  EXPECT_TRUE(certificate.certify(1, JointVector::Zero(2), JointVector::Ones(2)).certified);
 }
 
 }  // namespace
