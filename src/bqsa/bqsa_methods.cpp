@@ -1,6 +1,7 @@
 #include "bqsa/bqsa_methods.hpp"
 
 #include "bqsa/bqsa_planar.hpp"
+#include "bqsa/bqsa_projection.hpp"
 #include "bqsa/bqsa_spatial.hpp"
 
 namespace bqsa {
@@ -47,12 +48,34 @@ std::vector<ParameterDeclaration> exact_parameters() {
   return parameters;
 }
 
-std::unique_ptr<Method> make_exact(const ParameterValues& values) {
+BqsaSettings exact_settings(const ParameterValues& values) {
   BqsaSettings settings;
   read_bqsa_parameters(values, settings);
   settings.corrections = values.integer("corrections");
   settings.tip_tolerance = values.number("tip_tolerance");
-  return std::make_unique<Bqsa>(settings);
+  return settings;
+}
+
+std::unique_ptr<Method> make_exact(const ParameterValues& values) {
+  return std::make_unique<Bqsa>(exact_settings(values));
+}
+
+/// `bqsa_projection` declares the plane besides what `bqsa` does.
+std::vector<ParameterDeclaration> projection_parameters() {
+  std::vector<ParameterDeclaration> parameters = exact_parameters();
+  parameters.push_back(
+      choice_parameter("plane", {"auto", "xy", "yz", "zx"},
+                       "coordinate plane in which links are turned; auto: the first with an exit"));
+  return parameters;
+}
+
+std::unique_ptr<Method> make_projection(const ParameterValues& values) {
+  const std::string& name = values.choice("plane");
+  std::optional<CoordinatePlane> plane;
+  if (name == "xy") plane = CoordinatePlane::kXy;
+  if (name == "yz") plane = CoordinatePlane::kYz;
+  if (name == "zx") plane = CoordinatePlane::kZx;
+  return std::make_unique<BqsaProjection>(plane, exact_settings(values));
 }
 
 /// `bqsa_paper` declares the weight of clamped joints besides what all variants do.
@@ -89,6 +112,15 @@ MethodEntry bqsa_paper_method() {
           .capabilities = {.planar = true, .link_radius = true, .margin = true},
           .parameters = paper_parameters(),
           .make = make_paper};
+}
+
+MethodEntry bqsa_projection_method() {
+  return {.name = "bqsa_projection",
+          .summary = "backward quadratic search in space by projections, as the paper does",
+          .source = kSource,
+          .capabilities = {.spatial = true, .link_radius = true, .margin = true, .moving = true},
+          .parameters = projection_parameters(),
+          .make = make_projection};
 }
 
 }  // namespace bqsa

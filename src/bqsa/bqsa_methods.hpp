@@ -12,4 +12,7 @@ MethodEntry bqsa_method();
 /// `bqsa_paper`: the planar variant that steps as the paper does.
 MethodEntry bqsa_paper_method();
 
+/// `bqsa_projection`: in space by projections on the coordinate planes, as the paper does it.
+MethodEntry bqsa_projection_method();
+
 }  // namespace bqsa

@@ -2,8 +2,8 @@
 /// BQSA in space, exact: the 3-D quadratic instead of three projections (beyond the paper's section 4.2).
 #pragma once
 
-#include "bqsa/backward_search.hpp"
 #include "bqsa/obstacle_field.hpp"
+#include "bqsa/spatial_search.hpp"
 
 namespace bqsa {
 
@@ -13,11 +13,10 @@ namespace bqsa {
 ///
 /// in increments of dTheta for the fastest joint, and the tip is put back on its path. g is the outward
 /// normal of the ellipsoid's level at the link's vertex point P(t*), J(t*) the Jacobian of that point,
-/// interpolated between the link's end-points, N the null-space projector of the tip task. Links that
-/// were freed before are searched again until all are free.
-class BqsaSpatial final : public BackwardSearch {
+/// interpolated between the link's end-points, N the null-space projector of the tip task.
+class BqsaSpatial final : public SpatialSearch {
  public:
-  explicit BqsaSpatial(const BqsaSettings& settings = {}) : BackwardSearch(settings) {}
+  explicit BqsaSpatial(const BqsaSettings& settings = {}) : SpatialSearch(settings) {}
 
   /// @throws std::invalid_argument if the problem is not spatial
   void prepare(const Problem& problem) override;
@@ -25,16 +24,15 @@ class BqsaSpatial final : public BackwardSearch {
  private:
   void go_to(int tick) override { obstacles_.go_to(tick); }
   void keep(double distance) override { obstacles_.keep(distance); }
-  Infeasible free_links(const StepInput& input, StepOutput& output) override;
+  int first_hit(const Link& link, int from) const override {
+    return obstacles_.first_hit(pose_, link, from);
+  }
+  Infeasible free_link(const StepInput& input, const Link& link, StepOutput& output) override;
 
-  Infeasible free_link(const StepInput& input, const Link& link, StepOutput& output);
   bool clamping_velocity(const Link& link, int obstacle, JointVector& phi);
-  bool move(const StepInput& input, const JointVector& from, const JointVector& change);
-  void settle(const StepInput& input, const Link& link, const JointVector& colliding,
-              const JointVector& change);
 
   ObstacleField<3> obstacles_;
-  TaskJacobian J_tip_, J_start_, J_end_;  ///< of pose_
+  TaskJacobian J_start_, J_end_;  ///< of pose_
 };
 
 }  // namespace bqsa

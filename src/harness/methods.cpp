@@ -11,6 +11,7 @@ const std::vector<MethodEntry>& methods() {
       baselines::plain_tracking_method(),
       bqsa_method(),
       bqsa_paper_method(),
+      bqsa_projection_method(),
       baselines::test_point_method(),
   };
   return kMethods;

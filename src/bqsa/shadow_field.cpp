@@ -1,0 +1,62 @@
+#include "bqsa/shadow_field.hpp"
+
+#include <utility>
+
+#include "bqsa/geometry/separation.hpp"
+
+namespace bqsa {
+namespace {
+
+constexpr Eigen::Index first_axis(CoordinatePlane plane) { return static_cast<int>(plane); }
+constexpr Eigen::Index second_axis(CoordinatePlane plane) { return (first_axis(plane) + 1) % 3; }
+
+Ellipse shadow_on(CoordinatePlane plane, const Ellipsoid& shape) {
+  Eigen::Matrix<double, 2, 3> selector;
+  selector << Eigen::RowVector3d::Unit(first_axis(plane)),
+      Eigen::RowVector3d::Unit(second_axis(plane));
+  return shadow(shape, selector);
+}
+
+}  // namespace
+
+Eigen::Vector2d projected(const Eigen::Vector3d& p, CoordinatePlane plane) {
+  return {p(first_axis(plane)), p(second_axis(plane))};
+}
+
+void ShadowField::assign(const std::vector<Obstacle>& obstacles, WorkCounters& counters) {
+  counters_ = &counters;
+  tick_ = 0;
+  distance_ = 0;
+  shadows_.clear();
+  const auto shadows_of = [](const Ellipsoid& shape) -> Shadows {
+    return {shadow_on(CoordinatePlane::kXy, shape), shadow_on(CoordinatePlane::kYz, shape),
+            shadow_on(CoordinatePlane::kZx, shape)};
+  };
+  for (const Obstacle& obstacle : obstacles) {
+    std::vector<Shadows>& all = shadows_.emplace_back();
+    if (!obstacle.moves()) all.push_back(shadows_of(obstacle.shape));
+    for (const Ellipsoid& shape : obstacle.motion) all.push_back(shadows_of(shape));
+  }
+}
+
+bool ShadowField::hit(const Shadows& shadows, const Eigen::Vector3d& p1,
+                      const Eigen::Vector3d& p2) const {
+  for (const CoordinatePlane plane : kCoordinatePlanes) {
+    ++counters_->quadratics;
+    const Ellipse& dark = shadows[static_cast<std::size_t>(plane)];
+    if (separation<2>(dark, projected(p1, plane), projected(p2, plane)) > distance_) return false;
+  }
+  return true;
+}
+
+int ShadowField::first_hit(const ChainPose& pose, const Link& link, int from) const {
+  const Eigen::Vector3d p1 = pose.p_WO.col(link.start);
+  const Eigen::Vector3d p2 = pose.p_WO.col(link.end);
+  for (int j = from; j < static_cast<int>(shadows_.size()); ++j) {
+    const std::vector<Shadows>& all = shadows_[static_cast<std::size_t>(j)];
+    if (hit(all.size() == 1 ? all.front() : all[tick_], p1, p2)) return j;
+  }
+  return -1;
+}
+
+}  // namespace bqsa
