@@ -1,11 +1,13 @@
 #include "harness/runner.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <exception>
 #include <limits>
 #include <memory>
+#include <numeric>
 
 namespace bqsa::harness {
 namespace {
@@ -75,23 +77,56 @@ std::string fault_of(const StepOutput& output, const Problem& problem) {
   return output.q.allFinite() ? "" : "returned a joint angle that is not finite";
 }
 
-/// Summary of the step times of the ticks 1, 2, ...
-void summarize(const std::vector<double>& step_s, RunTimes& times) {
-  if (step_s.empty()) return;
-  times.first_step_s = step_s.front();
-  std::vector<double> warm(step_s.begin() + 1, step_s.end());
+constexpr int kFirstWarmTick = 2;
+
+/// What is noted of the ticks; storage for all is taken at once.
+struct TickLog {
+  std::vector<double> step_s;      ///< of the ticks 1, 2, ...
+  std::vector<double> increments;  ///< of each tick in which a link was cleared
+  double slowest_s = -1;           ///< of the warm ticks
+  JointVector q_slowest;           ///< what the method was told at that tick
+  PairTally tally;
+
+  explicit TickLog(const Problem& problem) : tally(problem.obstacles.size()) {
+    step_s.reserve(static_cast<std::size_t>(problem.ticks));
+    increments.reserve(static_cast<std::size_t>(problem.ticks));
+  }
+
+  void add_step(const StepInput& input, double seconds) {
+    step_s.push_back(seconds);
+    if (input.tick < kFirstWarmTick || seconds <= slowest_s) return;
+    slowest_s = seconds;
+    q_slowest = input.q;
+  }
+};
+
+void summarize(const TickLog& log, RunTimes& times) {
+  if (log.step_s.empty()) return;
+  times.first_step_s = log.step_s.front();
+  std::vector<double> warm(log.step_s.begin() + 1, log.step_s.end());
   if (warm.empty()) return;
   const auto slowest = std::max_element(warm.begin(), warm.end());
-  constexpr int kFirstWarmTick = 2;
   times.warm_steps = static_cast<int>(warm.size());
   times.warm_max_s = *slowest;
   times.warm_max_tick = kFirstWarmTick + static_cast<int>(slowest - warm.begin());
+  times.warm_max_q = log.q_slowest;
+  for (const double seconds : warm) times.warm_histogram.add(seconds / RunTimes::kHistogramUnit);
 
   std::sort(warm.begin(), warm.end());
-  const std::size_t half = warm.size() / 2;
-  times.warm_median_s = warm.size() % 2 == 1 ? warm[half] : (warm[half - 1] + warm[half]) / 2;
-  const double rank = std::ceil(0.99 * static_cast<double>(warm.size()));
-  times.warm_p99_s = warm[static_cast<std::size_t>(rank) - 1];
+  times.warm_median_s = median_of(warm);
+  times.warm_p99_s = quantile_of(warm, 0.99);
+  times.warm_p999_s = quantile_of(warm, 0.999);
+}
+
+void summarize(std::vector<double> increments, TickIncrements& summary) {
+  if (increments.empty()) return;
+  std::sort(increments.begin(), increments.end());
+  const double sum = std::accumulate(increments.begin(), increments.end(), 0.0);
+  summary.mean = sum / static_cast<double>(increments.size());
+  summary.median = median_of(increments);
+  summary.p99 = quantile_of(increments, 0.99);
+  summary.max = static_cast<int>(increments.back());
+  for (const double count : increments) summary.histogram.add(count);
 }
 
 void count(TickState state, RunOutcome& outcome) {
@@ -110,9 +145,21 @@ void count(TickState state, RunOutcome& outcome) {
   }
 }
 
+void count_clamps(const StepOutput& output, int tick, RunOutcome& outcome, TickLog& log) {
+  int increments = 0;
+  for (int i = 0; i < output.clamp_count; ++i) {
+    const Clamp& clamp = output.clamps[static_cast<std::size_t>(i)];
+    log.tally.add(clamp, tick);
+    increments += clamp.increments;
+    outcome.increments_max = std::max(outcome.increments_max, clamp.increments);
+  }
+  outcome.increments_total += increments;
+  if (output.clamp_count > 0) log.increments.push_back(increments);
+}
+
 /// The control loop; `outcome.tick` is the tick in progress.
-void follow(ReactiveMethod& method, const Problem& problem, RunOutcome& outcome,
-            std::vector<double>& step_s, PairTally& tally) {
+void follow(ReactiveMethod& method, const Problem& problem, JointSensors& sensors,
+            RunOutcome& outcome, TickLog& log) {
   Trajectory& trajectory = outcome.trajectory;
   StepInput input;
   StepOutput output;
@@ -121,12 +168,12 @@ void follow(ReactiveMethod& method, const Problem& problem, RunOutcome& outcome,
     input.tick = tick;
     input.t = problem.time(tick);
     input.p_WT_desired = problem.desired_tip(input.t);
-    input.q = trajectory.q.back();
+    input.q = sensors.reading(trajectory.q);
     output = {};
 
     const Clock::time_point start = Clock::now();
     method.step(input, output);
-    step_s.push_back(seconds_since(start));
+    log.add_step(input, seconds_since(start));
 
     outcome.message = fault_of(output, problem);
     const bool usable = outcome.message.empty();
@@ -139,7 +186,7 @@ void follow(ReactiveMethod& method, const Problem& problem, RunOutcome& outcome,
     }
     if (output.q.size() == problem.chain.joints()) {
       trajectory.t.push_back(input.t);
-      trajectory.q.push_back(output.q);
+      trajectory.q.push_back(sensors.executed(output.q));
     }
     if (!usable) {
       outcome.claim = Claim::kCrashed;
@@ -147,12 +194,7 @@ void follow(ReactiveMethod& method, const Problem& problem, RunOutcome& outcome,
     }
     count(output.state, outcome);
     if (output.guard_fired) ++outcome.guard_fired;
-    for (int i = 0; i < output.clamp_count; ++i) {
-      const Clamp& clamp = output.clamps[static_cast<std::size_t>(i)];
-      tally.add(clamp, tick);
-      outcome.increments_total += clamp.increments;
-      outcome.increments_max = std::max(outcome.increments_max, clamp.increments);
-    }
+    count_clamps(output, tick, outcome, log);
   }
   outcome.tick = 0;
   outcome.claim = outcome.unclaimed_ticks > 0 ? Claim::kNothing : Claim::kSuccess;
@@ -160,8 +202,7 @@ void follow(ReactiveMethod& method, const Problem& problem, RunOutcome& outcome,
 
 void make_and_run(const Problem& problem, const MethodEntry& entry,
                   const ParameterValues& parameters, const RunSettings& settings,
-                  std::unique_ptr<Method>& method, RunOutcome& outcome, std::vector<double>& step_s,
-                  PairTally& tally) {
+                  std::unique_ptr<Method>& method, RunOutcome& outcome, TickLog& log) {
   Clock::time_point start = Clock::now();
   method = entry.make(parameters);
   outcome.times.construct_s = seconds_since(start);
@@ -171,13 +212,15 @@ void make_and_run(const Problem& problem, const MethodEntry& entry,
   outcome.times.prepare_s = seconds_since(start);
 
   if (auto* planner = dynamic_cast<PlanningMethod*>(method.get())) {
+    assert(!settings.disturbance.on());
     start = Clock::now();
     PlanningMethod::Plan plan = planner->plan(settings.plan_budget_s, settings.seed);
     outcome.times.plan_s = seconds_since(start);
     outcome.claim = plan.solved ? Claim::kSuccess : Claim::kUnsolved;
     outcome.trajectory = std::move(plan.trajectory);
   } else {
-    follow(dynamic_cast<ReactiveMethod&>(*method), problem, outcome, step_s, tally);
+    JointSensors sensors(settings.disturbance, settings.seed, problem.name);
+    follow(dynamic_cast<ReactiveMethod&>(*method), problem, sensors, outcome, log);
   }
 }
 
@@ -190,7 +233,11 @@ RunTimes::RunTimes()
       first_step_s(kNone),
       warm_median_s(kNone),
       warm_p99_s(kNone),
-      warm_max_s(kNone) {}
+      warm_p999_s(kNone),
+      warm_max_s(kNone),
+      run_s(kNone) {}
+
+TickIncrements::TickIncrements() : mean(kNone), median(kNone), p99(kNone) {}
 
 RunOutcome run_method(const Problem& problem, const MethodEntry& entry,
                       const ParameterValues& parameters, const RunSettings& settings) {
@@ -201,13 +248,12 @@ RunOutcome run_method(const Problem& problem, const MethodEntry& entry,
   outcome.trajectory.q.reserve(ticks + 1);
   outcome.trajectory.t.push_back(0);
   outcome.trajectory.q.push_back(problem.start);
-  std::vector<double> step_s;
-  step_s.reserve(ticks);
-  PairTally tally(problem.obstacles.size());
+  TickLog log(problem);
 
   std::unique_ptr<Method> method;
+  const Clock::time_point start = Clock::now();
   try {
-    make_and_run(problem, entry, parameters, settings, method, outcome, step_s, tally);
+    make_and_run(problem, entry, parameters, settings, method, outcome, log);
   } catch (const std::exception& error) {
     outcome.claim = Claim::kCrashed;
     outcome.message = error.what();
@@ -215,10 +261,31 @@ RunOutcome run_method(const Problem& problem, const MethodEntry& entry,
     outcome.claim = Claim::kCrashed;
     outcome.message = "threw something that is not a std::exception";
   }
+  outcome.times.run_s = seconds_since(start);
   if (method) outcome.counters = method->counters();
-  outcome.clamped_pairs = tally.pairs();
-  summarize(step_s, outcome.times);
+  outcome.clamped_pairs = log.tally.pairs();
+  summarize(log, outcome.times);
+  summarize(log.increments, outcome.increments);
   return outcome;
+}
+
+bool is_reactive(const MethodEntry& entry, const ParameterValues& parameters) {
+  try {
+    const std::unique_ptr<Method> method = entry.make(parameters);
+    return dynamic_cast<PlanningMethod*>(method.get()) == nullptr;
+  } catch (...) {
+    return true;
+  }
+}
+
+double quantile_of(const std::vector<double>& sorted, double share) {
+  const double rank = std::ceil(share * static_cast<double>(sorted.size()));
+  return sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
+}
+
+double median_of(const std::vector<double>& sorted) {
+  const std::size_t half = sorted.size() / 2;
+  return sorted.size() % 2 == 1 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
 }
 
 bool claim_holds(Claim claim, bool judged_success) {

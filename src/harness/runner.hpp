@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "bqsa/method.hpp"
+#include "harness/disturbance.hpp"
+#include "harness/log_histogram.hpp"
 
 namespace bqsa::harness {
 
@@ -20,8 +22,9 @@ enum class Claim {
 };
 
 struct RunSettings {
-  std::uint64_t seed = 1;     ///< of all randomness of a planning method
-  double plan_budget_s = 10;  ///< wall time that a planning method may use [s]
+  std::uint64_t seed = 1;        ///< of all randomness: of a planning method, of the noise
+  double plan_budget_s = 10;     ///< wall time that a planning method may use [s]
+  Disturbance disturbance = {};  ///< of reactive methods; planning methods must not be run with one
 };
 
 /// Wall times, by a monotonic clock that the method does not see. Not a number where there was
@@ -33,11 +36,29 @@ struct RunTimes {
   double first_step_s;  ///< the cold step of tick 1; reactive methods only, like all below
   int warm_steps = 0;   ///< steps of the ticks from 2 on
   double warm_median_s;
-  double warm_p99_s;  ///< smallest step time that at least 99 % of the warm steps do not exceed
+  double warm_p99_s;   ///< smallest step time that at least 99 % of the warm steps do not exceed
+  double warm_p999_s;  ///< likewise 99.9 %
   double warm_max_s;
   int warm_max_tick = 0;
+  JointVector warm_max_q;       ///< StepInput::q of that tick [rad]
+  LogHistogram warm_histogram;  ///< of all warm steps; its unit is kHistogramUnit
+  double run_s;                 ///< from the construction to the last answer
+
+  static constexpr double kHistogramUnit = 1e-9;  ///< [s]
 
   RunTimes();
+};
+
+/// Clamping increments of the ticks in which a link was cleared, summed over the clamps of a tick.
+/// Not a number if there was none.
+struct TickIncrements {
+  double mean;
+  double median;
+  double p99;  ///< smallest number that at least 99 % of these ticks do not exceed
+  int max = 0;
+  LogHistogram histogram;  ///< its unit is one increment
+
+  TickIncrements();
 };
 
 /// A link-obstacle pair that the method cleared.
@@ -62,6 +83,7 @@ struct RunOutcome {
   std::vector<ClampedPair> clamped_pairs;  ///< by link, then obstacle
   std::int64_t increments_total = 0;       ///< clamping increments of all ticks
   int increments_max = 0;                  ///< of one clamp
+  TickIncrements increments;
 
   WorkCounters counters;
   RunTimes times;
@@ -69,17 +91,28 @@ struct RunOutcome {
       trajectory;  ///< from the start to the last tick answered; the last safe part if infeasible
 };
 
-/// Constructs, prepares and runs the method. A reactive method is given its own last joint angles
-/// and x_d(t) tick by tick until the first infeasible tick or unusable answer (wrong number of
-/// joint angles, one that is not finite, a link or obstacle that does not exist); a row with joint
-/// angles that are not finite is kept for the judge. A plan is kept as it is. Exceptions of the
-/// method end up in the outcome.
+/// Constructs, prepares and runs the method. A reactive method is given its own last joint angles,
+/// as the sensors show them, and x_d(t) tick by tick until the first infeasible tick or unusable
+/// answer (wrong number of joint angles, one that is not finite, a link or obstacle that does not
+/// exist); a row with joint angles that are not finite is kept for the judge. The trajectory is what
+/// the arm executed. A plan is kept as it is. Exceptions of the method end up in the outcome.
 RunOutcome run_method(const Problem& problem, const MethodEntry& method,
                       const ParameterValues& parameters, const RunSettings& settings = {});
+
+/// Whether the method answers tick by tick, or cannot be made, which run_method() will report.
+bool is_reactive(const MethodEntry& method, const ParameterValues& parameters);
 
 /// Whether the claim and the verdict agree; a method that claims nothing is never wrong.
 bool claim_holds(Claim claim, bool judged_success);
 
 const char* name_of(Claim claim);
+
+/// The smallest of these values that at least this share of them does not exceed.
+/// @param sorted  ascending, not empty
+double quantile_of(const std::vector<double>& sorted, double share);
+
+/// The middle value, or the mean of the two in the middle.
+/// @param sorted  ascending, not empty
+double median_of(const std::vector<double>& sorted);
 
 }  // namespace bqsa::harness
