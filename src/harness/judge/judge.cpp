@@ -167,7 +167,8 @@ class CollisionCheck {
     std::vector<double> clearances;
     scene_.kinematics().place(q, positions_);
     for (const LinkObstaclePair& pair : scene_.pairs()) {
-      const PairReading reading = scene_.read(positions_, pair, FclQuestion::kHitAndDistance);
+      const PairReading reading =
+          scene_.read(positions_, pair, Instant{tick}, FclQuestion::kHitAndDistance);
       clearances.push_back(reading.clearance);
       judgement_.clearance_at_ticks = std::min(judgement_.clearance_at_ticks, reading.clearance);
       if (!reading.contradiction.empty()) {
@@ -187,17 +188,17 @@ class CollisionCheck {
   /// Follows the motion to `tick` for the pairs that are free at both ends and near enough to meet.
   void check_motion(const VectorXd& from, const VectorXd& to, int tick,
                     const std::vector<double>& before, const std::vector<double>& after) {
-    const std::vector<double> travel = motion_.travel(from, to);
+    const std::vector<double> travel = motion_.travel(from, to, tick);
     std::vector<LinkObstaclePair> open;
     std::vector<double> bounds;  // of the clearances of those
     for (std::size_t k = 0; k < scene_.pairs().size(); ++k) {
       const LinkObstaclePair& pair = scene_.pairs()[k];
       const double clearance = std::min(before[k], after[k]);
-      const double way = travel[static_cast<std::size_t>(pair.link)];
+      const double way = travel[k];
       const double least = (before[k] + after[k] - way) / 2;
       const bool collides_at_an_end = clearance < -Judge::kTouching;
-      // Both checkers agreed on the clearance at the ends, and the link is within half its way of
-      // one.
+      // Both checkers agreed on the clearance at the ends, and at any time at most half the way is
+      // between the pair and one of them.
       const bool too_far = clearance > way / 2;
       if (!collides_at_an_end && !too_far) {
         open.push_back(pair);
@@ -208,7 +209,7 @@ class CollisionCheck {
     }
     if (open.empty()) return;
     const MotionVerdict verdict =
-        motion_.follow(from, to, open, std::min(visits_left_, Judge::kVisitsOfAMotion));
+        motion_.follow(from, to, tick, open, std::min(visits_left_, Judge::kVisitsOfAMotion));
     visits_left_ = std::max(0L, visits_left_ - verdict.visits);
     take(verdict, tick);
     if (!verdict.undecided.empty()) failures_.insert(Failure::kUndecided);
@@ -238,7 +239,7 @@ class CollisionCheck {
       if (!may_lower_clearance(approach.least)) return;
       const auto k = static_cast<std::size_t>(approach.tick);
       const MotionVerdict verdict =
-          motion_.follow(rows[k - 1], rows[k], {approach.pair},
+          motion_.follow(rows[k - 1], rows[k], approach.tick, {approach.pair},
                          std::min(visits_left, Judge::kVisitsOfAMotion), judgement_.clearance);
       visits_left -= verdict.visits;
       take(verdict, approach.tick);

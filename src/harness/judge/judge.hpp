@@ -69,6 +69,9 @@ struct Judgement {
 
 /// Judges trajectories of one problem. Shares no code with src/bqsa but the plain data it reads.
 ///
+/// Obstacles that move are met where they are at the time: between ticks, links and obstacles make
+/// their motions together.
+///
 /// Joint angles are taken as they are: a turn by 2 pi is a step of 2 pi. Rows before the first one
 /// that is not finite or has the wrong width are judged in full, whatever else is wrong.
 class Judge {
@@ -88,6 +91,7 @@ class Judge {
 
   /// The problem outlives the judge. Runs the self-test of FCL.
   /// @throws std::runtime_error if FCL fails one of its known hits or misses
+  /// @throws std::invalid_argument if an obstacle's motion is not one state a tick
   explicit Judge(const Problem& problem);
 
   /// Any trajectory is judged; none is trusted. Nothing is thrown for a bad one.

@@ -25,6 +25,13 @@ std::vector<std::string> names_of(const std::vector<Obstacle>& obstacles) {
   return names;
 }
 
+std::vector<ObstacleTrack> tracks_of(const Problem& problem) {
+  std::vector<ObstacleTrack> tracks;
+  tracks.reserve(problem.obstacles.size());
+  for (const Obstacle& obstacle : problem.obstacles) tracks.emplace_back(obstacle, problem.ticks);
+  return tracks;
+}
+
 }  // namespace
 
 std::string contradiction(double exact_clearance, bool fcl_hit) {
@@ -54,6 +61,7 @@ LinkScene::LinkScene(const Problem& problem)
     : kinematics_(problem.chain.description()),
       names_(names_of(problem.obstacles)),
       obstacles_(shapes_of(problem.obstacles)),
+      tracks_(tracks_of(problem)),
       link_radius_(problem.link_radius),
       fcl_(obstacles_, link_radius_) {
   for (int link = 0; link < static_cast<int>(kinematics_.links().size()); ++link) {
@@ -69,11 +77,21 @@ std::string LinkScene::show(const LinkObstaclePair& pair) const {
 }
 
 PairReading LinkScene::read(const PointPositions& positions, const LinkObstaclePair& pair,
-                            FclQuestion question) const {
+                            const Instant& instant, FclQuestion question) const {
   const LinkSegment& ends = link(pair);
-  const Eigen::Vector3d& start = positions.points[static_cast<std::size_t>(ends.start)];
-  const Eigen::Vector3d& end = positions.points[static_cast<std::size_t>(ends.end)];
+  Eigen::Vector3d start = positions.points[static_cast<std::size_t>(ends.start)];
+  Eigen::Vector3d end = positions.points[static_cast<std::size_t>(ends.end)];
   const Ellipsoid& obstacle = obstacles_[static_cast<std::size_t>(pair.obstacle)];
+  const bool moves = track(pair).moves();
+  Eigen::Vector3d center;  // of the obstacle now
+  Eigen::Matrix3d turn;    // that it has made since t = 0
+  if (moves) {
+    const ObstacleState state = track(pair).at(instant);
+    center = state.center;
+    turn = state.rotation * obstacle.rotation().transpose();
+    start = obstacle.center() + turn.transpose() * (start - center);
+    end = obstacle.center() + turn.transpose() * (end - center);
+  }
 
   const SegmentDistance exact = exact_distance(start, end, obstacle);
   PairReading reading;
@@ -82,6 +100,10 @@ PairReading LinkScene::read(const PointPositions& positions, const LinkObstacleP
   const Eigen::Vector3d along_axes = obstacle.rotation().transpose() * exact.normal;
   reading.offset =
       exact.normal.dot(obstacle.center()) + obstacle.semi_axes().cwiseProduct(along_axes).norm();
+  if (moves) {
+    reading.normal = turn * exact.normal;
+    reading.offset += reading.normal.dot(center) - exact.normal.dot(obstacle.center());
+  }
 
   const bool hit = fcl_.collides(start, end, pair.obstacle);
   if (hit || question == FclQuestion::kHit) {

@@ -11,6 +11,7 @@
 #include "bqsa/problem.hpp"
 #include "harness/judge/fcl_check.hpp"
 #include "harness/judge/judge_kinematics.hpp"
+#include "harness/judge/obstacle_track.hpp"
 
 namespace bqsa::harness {
 
@@ -44,7 +45,7 @@ struct LinkObstaclePair {
   int obstacle = 0;
 };
 
-/// A pair at one configuration.
+/// A pair at one configuration and instant, in W.
 struct PairReading {
   double clearance = 0;  ///< of the link with its radius; minus the depth if they meet [m]
   Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  ///< of a plane that proves the clearance
@@ -57,11 +58,15 @@ enum class FclQuestion { kHit, kHitAndDistance };
 class LinkScene {
  public:
   /// The problem's description, obstacles and radius are copied.
+  /// @throws std::invalid_argument as ObstacleTrack
   explicit LinkScene(const Problem& problem);
 
   const JudgeKinematics& kinematics() const { return kinematics_; }
   const LinkSegment& link(const LinkObstaclePair& pair) const {
     return kinematics_.links()[static_cast<std::size_t>(pair.link)];
+  }
+  const ObstacleTrack& track(const LinkObstaclePair& pair) const {
+    return tracks_[static_cast<std::size_t>(pair.obstacle)];
   }
   double link_radius() const { return link_radius_; }
 
@@ -71,14 +76,16 @@ class LinkScene {
   /// All pairs of a link and an obstacle.
   const std::vector<LinkObstaclePair>& pairs() const { return pairs_; }
 
-  /// Reads a pair by the exact distance and by FCL.
+  /// Reads a pair by the exact distance and by FCL. To both, a moving obstacle stands where it was
+  /// at t = 0, and the link is placed as seen from it.
   PairReading read(const PointPositions& positions, const LinkObstaclePair& pair,
-                   FclQuestion question) const;
+                   const Instant& instant, FclQuestion question) const;
 
  private:
   JudgeKinematics kinematics_;
-  std::vector<std::string> names_;  // of the obstacles
-  std::vector<Ellipsoid> obstacles_;
+  std::vector<std::string> names_;    // of the obstacles
+  std::vector<Ellipsoid> obstacles_;  // at t = 0
+  std::vector<ObstacleTrack> tracks_;
   double link_radius_;
   FclCheck fcl_;
   std::vector<LinkObstaclePair> pairs_;

@@ -44,11 +44,12 @@ PointBounds bounds_of(const JudgeKinematics& kinematics, const Eigen::VectorXd& 
 class Bisection {
  public:
   Bisection(const LinkScene& scene, const Eigen::VectorXd& from, const Eigen::VectorXd& to,
-            const std::vector<LinkObstaclePair>& pairs, long limit, double known)
+            int tick, const std::vector<LinkObstaclePair>& pairs, long limit, double known)
       : scene_(scene),
         kinematics_(scene.kinematics()),
         from_(from),
         to_(to),
+        tick_(tick),
         change_(to - from),
         bounds_(bounds_of(kinematics_, change_)),
         pairs_(pairs),
@@ -91,7 +92,7 @@ class Bisection {
 
     std::vector<std::size_t> rest;
     for (const std::size_t pair : open) {
-      if (!colliding_[pair] && !settled(pair, (high - low) / 2)) rest.push_back(pair);
+      if (!colliding_[pair] && !settled(pair, middle, (high - low) / 2)) rest.push_back(pair);
     }
     if (rest.empty()) return;
     bisect(low, middle, rest, depth + 1);
@@ -99,9 +100,10 @@ class Bisection {
   }
 
   /// Reads the pair at the placed midpoint; whether the interval around it needs no closer look.
-  bool settled(std::size_t index, double half_width) {
+  bool settled(std::size_t index, double middle, double half_width) {
     const LinkObstaclePair& pair = pairs_[index];
-    const PairReading reading = scene_.read(positions_, pair, FclQuestion::kHit);
+    const Instant instant{tick_, middle};
+    const PairReading reading = scene_.read(positions_, pair, instant, FclQuestion::kHit);
     ++verdict_.visits;
     verdict_.clearance = std::min(verdict_.clearance, reading.clearance);
     least_known_ = std::min(least_known_, reading.clearance);
@@ -114,7 +116,7 @@ class Bisection {
     }
     const bool touching = reading.clearance <= Judge::kTouching;
     verdict_.touching = verdict_.touching || touching;
-    const double least = least_clearance(reading, scene_.link(pair), half_width);
+    const double least = least_clearance(reading, pair, instant, half_width);
     const bool no_nearer = least >= least_known_ - clearance_resolution(least_known_);
     const bool touches =
         touching && (least >= -Judge::kTouching || reading.clearance - least <= kResolution);
@@ -123,26 +125,36 @@ class Bisection {
     return true;
   }
 
-  /// Lower bound of the clearance on the interval around the midpoint.
-  double least_clearance(const PairReading& reading, const LinkSegment& link, double h) const {
+  /// Lower bound of the clearance on the interval of half width h around the instant.
+  double least_clearance(const PairReading& reading, const LinkObstaclePair& pair,
+                         const Instant& instant, double h) const {
+    const LinkSegment& link = scene_.link(pair);
+    const ObstacleState obstacle = scene_.track(pair).at(instant);
+    const double spin = obstacle.spin.norm();
     double from_plane = std::numeric_limits<double>::infinity();
     double speed = 0;
     for (const int point : {link.start, link.end}) {
       const auto at = static_cast<std::size_t>(point);
-      const Eigen::Vector3d velocity = kinematics_.velocity(positions_, change_, point);
-      const double approach =
-          h * std::abs(reading.normal.dot(velocity)) + h * h / 2 * bounds_.acceleration[at];
+      const Eigen::Vector3d arm = positions_.points[at] - obstacle.center;
+      const Eigen::Vector3d velocity = kinematics_.velocity(positions_, change_, point) -
+                                       obstacle.velocity - obstacle.spin.cross(arm);
+      const double passing = bounds_.speed[at] + obstacle.velocity.norm();
+      const double acceleration =
+          bounds_.acceleration[at] + 2 * spin * passing + spin * spin * (arm.norm() + h * passing);
+      const double approach = h * std::abs(reading.normal.dot(velocity)) + h * h / 2 * acceleration;
       const double height = reading.normal.dot(positions_.points[at]) - reading.offset;
       from_plane = std::min(from_plane, height - approach);
       speed = std::max(speed, bounds_.speed[at]);
     }
-    return std::max(from_plane - scene_.link_radius(), reading.clearance - h * speed);
+    const double way = h * (speed + scene_.track(pair).travel(tick_));
+    return std::max(from_plane - scene_.link_radius(), reading.clearance - way);
   }
 
   const LinkScene& scene_;
   const JudgeKinematics& kinematics_;
   const Eigen::VectorXd& from_;
   const Eigen::VectorXd& to_;
+  const int tick_;
   const Eigen::VectorXd change_;
   const PointBounds bounds_;
   const std::vector<LinkObstaclePair>& pairs_;
@@ -165,21 +177,23 @@ Eigen::VectorXd between(const Eigen::VectorXd& from, const Eigen::VectorXd& to, 
   return (1 - s) * from + s * to;
 }
 
-std::vector<double> MotionCheck::travel(const Eigen::VectorXd& from,
-                                        const Eigen::VectorXd& to) const {
+std::vector<double> MotionCheck::travel(const Eigen::VectorXd& from, const Eigen::VectorXd& to,
+                                        int tick) const {
   const PointBounds bounds = bounds_of(scene_.kinematics(), to - from);
   std::vector<double> travel;
-  for (const LinkSegment& link : scene_.kinematics().links()) {
+  for (const LinkObstaclePair& pair : scene_.pairs()) {
+    const LinkSegment& link = scene_.link(pair);
     travel.push_back(std::max(bounds.speed[static_cast<std::size_t>(link.start)],
-                              bounds.speed[static_cast<std::size_t>(link.end)]));
+                              bounds.speed[static_cast<std::size_t>(link.end)]) +
+                     scene_.track(pair).travel(tick));
   }
   return travel;
 }
 
-MotionVerdict MotionCheck::follow(const Eigen::VectorXd& from, const Eigen::VectorXd& to,
+MotionVerdict MotionCheck::follow(const Eigen::VectorXd& from, const Eigen::VectorXd& to, int tick,
                                   const std::vector<LinkObstaclePair>& pairs, long limit,
                                   double known) const {
-  return Bisection(scene_, from, to, pairs, limit, known).run();
+  return Bisection(scene_, from, to, tick, pairs, limit, known).run();
 }
 
 }  // namespace bqsa::harness

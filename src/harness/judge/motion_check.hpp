@@ -1,6 +1,6 @@
 /// @file
-/// Whether the links stay out of the obstacles during the whole of a straight joint motion: a proof
-/// by bisection, not a sampling.
+/// Whether the links stay out of the obstacles during the whole of a straight joint motion, the
+/// obstacles' own motion meanwhile included: a proof by bisection, not a sampling.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,15 +25,20 @@ struct MotionVerdict {
   long visits = 0;            ///< pairs read
 };
 
-/// Follows q(s) = from + s (to - from) for s in [0, 1].
+/// Follows q(s) = from + s (to - from) for s in [0, 1], while the obstacles make their motion to a
+/// tick.
 ///
 /// A sub-interval of half width h is read at its midpoint. A pair is free on it if its clearance
 /// there exceeds what the motion can take away. Two bounds of that hold, and the better counts:
-/// - no point of the link goes further than h sum_j |dq_j| reach(j, link);
-/// - the plane that proves the clearance stays, and the ends e of the link approach it by at most
-///   h |normal . v_e| + h²/2 sum_jk |dq_j| |dq_k| reach(max(j, k), e), with v_e their velocity at
-///   the midpoint. The double sum bounds their acceleration: the second derivative of a point by
-///   q_j and q_k, j <= k, is axis_j x (axis_k x arm_k).
+/// - no point of the link goes further than h sum_j |dq_j| reach(j, link), and the obstacle comes
+///   no nearer than by h ObstacleTrack::travel;
+/// - the plane that proves the clearance moves with the obstacle, and as seen from there the ends e
+///   of the link approach it by at most h |normal . u_e| + h²/2 b_e, with u_e their velocity at the
+///   midpoint and b_e a bound of their acceleration. For an obstacle at rest u_e is the velocity
+///   v_e in W, and b_e = sum_jk |dq_j| |dq_k| reach(max(j, k), e): the second derivative of a point
+///   by q_j and q_k, j <= k, is axis_j x (axis_k x arm_k). Seen from an obstacle whose centre c
+///   moves by c' and which turns by w, u_e = v_e - c' - w x (e - c), and the Coriolis and the
+///   centrifugal term add 2 |w| (|v_e| + |c'|) + |w|² |e - c| to b_e.
 ///
 /// Pairs not free are bisected until the bound has fallen below the touching band. A clearance
 /// below -Judge::kTouching at any midpoint is a collision; a pair that is still open when the bound
@@ -46,14 +51,16 @@ class MotionCheck {
  public:
   explicit MotionCheck(const LinkScene& scene) : scene_(scene) {}
 
-  /// For each link, a bound of the way that any of its points goes [m].
-  std::vector<double> travel(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const;
+  /// For each of LinkScene::pairs(), a bound of what the motion can take from its clearance [m].
+  std::vector<double> travel(const Eigen::VectorXd& from, const Eigen::VectorXd& to,
+                             int tick) const;
 
+  /// @param tick   that the motion leads to, for the obstacles
   /// @param pairs  those to be followed
   /// @param limit  largest number of visits; pairs open when it is reached are undecided
   /// @param known  look until the least clearance of the pairs is found if it is below this [m];
   ///               by default only freedom is asked for
-  MotionVerdict follow(const Eigen::VectorXd& from, const Eigen::VectorXd& to,
+  MotionVerdict follow(const Eigen::VectorXd& from, const Eigen::VectorXd& to, int tick,
                        const std::vector<LinkObstaclePair>& pairs, long limit,
                        double known = -std::numeric_limits<double>::infinity()) const;
 

@@ -139,7 +139,7 @@ TEST(MotionCheck, AgreesWithDenseSampling) {
     const Motion motion = random_motion(generator, k);
     const LinkScene scene(motion.problem);
     const MotionVerdict verdict =
-        MotionCheck(scene).follow(motion.from, motion.to, scene.pairs(), kPlenty);
+        MotionCheck(scene).follow(motion.from, motion.to, 1, scene.pairs(), kPlenty);
     ASSERT_TRUE(verdict.undecided.empty()) << "case " << k;
     ASSERT_EQ(verdict.contradiction, "") << "case " << k;
     const DenseOracle oracle(motion);
@@ -181,7 +181,7 @@ struct Sweep {
 
   MotionVerdict follow(long limit) const {
     const LinkScene scene(problem);
-    return MotionCheck(scene).follow(from, to, scene.pairs(), limit);
+    return MotionCheck(scene).follow(from, to, 1, scene.pairs(), limit);
   }
 
   Problem problem;
@@ -221,7 +221,7 @@ TEST(MotionCheck, SlidingInContactNeedsFewVisits) {
   problem.obstacles.push_back(
       {"ball", Ellipsoid(Vector3d::Zero(), Vector3d::Constant(distance - 1e-5))});
   const LinkScene scene(problem);
-  const MotionVerdict verdict = MotionCheck(scene).follow(from, to, {{1, 0}}, kPlenty);
+  const MotionVerdict verdict = MotionCheck(scene).follow(from, to, 1, {{1, 0}}, kPlenty);
   EXPECT_TRUE(verdict.colliding.empty() && verdict.undecided.empty());
   EXPECT_NEAR(verdict.clearance, 1e-5, 1e-9);
   EXPECT_LT(verdict.visits, 2000);
@@ -250,12 +250,12 @@ TEST(MotionCheck, TravelBoundsTheWayOfEveryPoint) {
   for (int k = 0; k < 2000; ++k) {
     const Motion motion = random_motion(generator, k);
     const LinkScene scene(motion.problem);
-    const std::vector<double> travel = MotionCheck(scene).travel(motion.from, motion.to);
+    const std::vector<double> travel = MotionCheck(scene).travel(motion.from, motion.to, 1);
     PointPositions first, second;
     scene.kinematics().place(motion.from, first);
     scene.kinematics().place(motion.to, second);
     for (std::size_t i = 0; i < travel.size(); ++i) {
-      const LinkSegment& link = scene.kinematics().links()[i];
+      const LinkSegment& link = scene.link(scene.pairs()[i]);
       for (const int point : {link.start, link.end}) {
         const auto at = static_cast<std::size_t>(point);
         const double way = (first.points[at] - second.points[at]).norm();
