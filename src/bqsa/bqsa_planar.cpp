@@ -21,7 +21,7 @@ void BqsaPlanar::prepare(const Problem& problem) {
     throw std::invalid_argument("planar BQSA needs a planar arm in standard form without a tool");
   }
   BackwardSearch::prepare(problem);
-  obstacles_.assign(problem.obstacles, counters_);
+  obstacles_.assign(problem.obstacles, counters_, problem.link_radius + problem.margin);
   self_motion_.assign(problem.chain, counters_);
 }
 

@@ -4,7 +4,7 @@ namespace bqsa {
 
 void BqsaSpatial::prepare(const Problem& problem) {
   SpatialSearch::prepare(problem);
-  obstacles_.assign(problem.obstacles, counters_);
+  obstacles_.assign(problem.obstacles, counters_, problem.link_radius + problem.margin);
 }
 
 /// Joints clamping: moves the arm along its self-motions until the link is free of all obstacles.

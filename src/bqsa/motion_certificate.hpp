@@ -1,5 +1,5 @@
 /// @file
-/// Proof that a joint-space motion is free between its ends, from the quadratic alone.
+/// Proof that a joint-space motion is free between its ends, from the quadratic.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,23 +11,31 @@
 
 namespace bqsa {
 
-/// Certifies motions q(s) = q0 + s (q1 - q0), s in [0, 1], of one problem's arm and obstacles.
+/// Certifies motions q(s) = q0 + s (q1 - q0), s in [0, 1], of one problem's arm, while its obstacles
+/// move from one tick to the next.
 ///
-/// Over a part of the motion of length h, an end-point of a link stays within
+/// Links are seen from the obstacle. With c(s) = c + s v its centre and R(s) its turn by the angle s w
+/// since the last tick, a point P of the arm is at
+///
+///     y(s) = R(s)ᵀ (P(s) - c(s)),   |y''| <= A = |P''| + 2 w (|P'| + |v|) + w² |P - c|,
+///
+/// and the obstacle stands still as it was at the last tick. Over a part of the motion of length h, y
+/// stays within
 ///
 ///     sag = A h² / 8
 ///
-/// of the chord between its two positions at the ends of that part, A a bound on its acceleration
-/// d²P/ds². So the link sweeps no more than the convex hull of its four corners, fattened by sag. Any
-/// unit coordinates u (segment_test.hpp) give a plane that supports the ellipsoid, with normal Tᵀu; it
-/// separates the hull from the ellipsoid, with `clearance` to spare, if for all four corners u_c
+/// of the chord between its two positions at the ends of that part. So the link sweeps no more than the
+/// convex hull of its four corners, fattened by sag. Any unit coordinates u (segment_test.hpp) give a
+/// plane that supports the ellipsoid, with normal Tᵀu; it separates the hull from the ellipsoid, with
+/// `clearance` to spare, if for all four corners u_c
 ///
 ///     u·u_c - |u| > (sag + clearance) |Tᵀu|.
 ///
-/// Tried are the vertices of the link's mean position and of its positions at both ends of the part;
-/// where all three fail, the part is halved, up to 2^-12 of the motion. The proof needs no distance query.
-/// What it certifies is free (to rounding, about 1e-15 of the lengths in play); what it does not certify
-/// may be free all the same, when a link slides along an obstacle closer than about 1e-7 of its length.
+/// Tried are the vertices of the link's mean position and of its positions at both ends of the part; with
+/// a clearance, the mean position's nearest plane (nearest_plane.hpp) too. Where all fail, the part is
+/// halved, up to 2^-12 of the motion. Without clearance the proof needs no distance query. What it
+/// certifies is free (to rounding, about 1e-15 of the lengths in play); what it does not certify may be
+/// free all the same, when a link slides along an obstacle closer than about 1e-7 of its length.
 class MotionCertificate {
  public:
   /// @param clearance  distance that the links' axes must keep from every obstacle: link radius and
@@ -41,7 +49,8 @@ class MotionCertificate {
     int obstacle = -1;  ///< its obstacle, else -1
   };
 
-  /// The motion from q0 at the tick before `tick` to q1 at `tick`. Does not allocate.
+  /// The motion from q0 at the tick before `tick` to q1 at `tick`; of obstacles that move, `tick` is one
+  /// of 1 .. ticks. Does not allocate.
   Result certify(int tick, const JointVector& q0, const JointVector& q1);
 
  private:
@@ -58,6 +67,23 @@ class MotionCertificate {
     const ChainPose& pose1;
   };
 
+  /// What an obstacle does between the two ticks.
+  struct Motion {
+    const Ellipsoid* shape;  ///< at the earlier tick
+    bool rests;
+    Eigen::Vector3d way;   ///< v, of the centre [m]
+    Eigen::Vector3d axis;  ///< of its turn, in W
+    double angle;          ///< w, at most pi [rad]
+  };
+
+  /// Bounds, over all of the motion, of |dP/ds| and |d²P/ds²| of a link's end-point P [m].
+  struct PointBounds {
+    double speed, acceleration;
+  };
+
+  static Motion motion_of(const Ellipsoid& from, const Ellipsoid& to);
+  static PointBounds bounds_of(const SerialChain& chain, const JointVector& dq, int point);
+
   Result certify(const Part& part, std::size_t first_pair, int halvings);
   bool separated(const Part& part, const Pair& pair) const;
 
@@ -65,7 +91,8 @@ class MotionCertificate {
   double clearance_ = 0;
   std::vector<Pair> pairs_;  ///< a stack: the pairs still open on each level of halving
   JointVector q0_, dq_;
-  std::array<double, kMaxPoints> acceleration_{};  ///< A of every end-point [m]
+  std::array<PointBounds, kMaxPoints> bounds_{};
+  std::vector<Motion> motions_;  ///< an obstacle each
   WorkCounters* counters_ = nullptr;
 };
 

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "bqsa/geometry/nearest_plane.hpp"
+
 namespace bqsa {
 namespace {
 
@@ -11,9 +13,11 @@ Ellipsoid as_seen(const Ellipsoid& shape, const Ellipsoid*) { return shape; }
 }  // namespace
 
 template <int Dim>
-void ObstacleField<Dim>::assign(const std::vector<Obstacle>& obstacles, WorkCounters& counters) {
+void ObstacleField<Dim>::assign(const std::vector<Obstacle>& obstacles, WorkCounters& counters,
+                                double clearance) {
   counters_ = &counters;
   distance_ = 0;
+  tight_ = clearance > 0;
   shapes_.clear();
   movers_.clear();
   const EllipsoidN<Dim>* const kind = nullptr;
@@ -40,7 +44,11 @@ bool ObstacleField<Dim>::hit(const ChainPose& pose, const Link& link, int obstac
   ++counters_->quadratics;
   const Vector p1 = pose.p_WO.col(link.start).template head<Dim>();
   const Vector p2 = pose.p_WO.col(link.end).template head<Dim>();
-  return separation((*this)[obstacle], p1, p2) <= distance_;
+  const double bound = separation((*this)[obstacle], p1, p2);
+  if (bound > distance_) return false;
+  if (!tight_ || bound <= 0) return true;
+  ++counters_->distance_queries;
+  return nearest_plane<Dim>((*this)[obstacle], p1, p2, distance_).distance <= distance_;
 }
 
 template <int Dim>

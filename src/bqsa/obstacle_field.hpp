@@ -17,13 +17,17 @@ template <int Dim>
 class ObstacleField {
  public:
   /// Takes over the obstacles, as they are at tick 0; planar fields take the plane section of each.
-  /// Quadratics are counted in `counters`, which must outlive the field. May allocate.
-  void assign(const std::vector<Obstacle>& obstacles, WorkCounters& counters);
+  /// Quadratics and distance queries are counted in `counters`, which must outlive the field. May
+  /// allocate.
+  ///
+  /// @param clearance  link radius and margin [m]. If there are any, a link that the quadratic cannot
+  ///                   show to be far enough away is asked for its tight distance (nearest_plane.hpp).
+  void assign(const std::vector<Obstacle>& obstacles, WorkCounters& counters, double clearance = 0);
 
   /// From now on the obstacles are where they are at this tick. Does not allocate.
   void go_to(int tick);
 
-  /// From now on a link closer than this [m], by the proven bound `separation`, counts as hitting.
+  /// From now on a link that is not proven to be further away than this [m] counts as hitting.
   void keep(double distance) { distance_ = distance; }
 
   const EllipsoidN<Dim>& operator[](int obstacle) const {
@@ -45,6 +49,7 @@ class ObstacleField {
   std::vector<EllipsoidN<Dim>> shapes_;
   std::vector<Mover> movers_;
   double distance_ = 0;
+  bool tight_ = false;  ///< whether `nearest_plane` is asked
   WorkCounters* counters_ = nullptr;
 };
 

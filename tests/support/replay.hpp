@@ -10,6 +10,7 @@
 
 #include "bqsa/method.hpp"
 #include "support/distance_oracle.hpp"
+#include "support/moving_obstacle.hpp"
 
 namespace bqsa::test_support {
 
@@ -56,7 +57,7 @@ inline Replay replay(ReactiveMethod& method, const Problem& problem) {
 }
 
 /// Link-obstacle pairs that come closer than `clearance` [m] (0: that meet) in a row or in one of
-/// `between` even samples of the motion between two rows.
+/// `between` even samples of the motion between two rows. Row k is that of tick k.
 inline std::set<LinkAndObstacle> sampled_hits(const Problem& problem,
                                               const std::vector<JointVector>& rows, int between,
                                               double clearance = 0) {
@@ -69,7 +70,7 @@ inline std::set<LinkAndObstacle> sampled_hits(const Problem& problem,
       problem.chain.forward(rows[k] + s * (rows[next] - rows[k]), pose);
       for (const Link& link : problem.chain.links()) {
         for (std::size_t j = 0; j < problem.obstacles.size(); ++j) {
-          const Ellipsoid& shape = problem.obstacles[j].shape;
+          const Ellipsoid shape = shape_at(problem.obstacles[j], static_cast<double>(k) + s);
           const DistanceOracle oracle(pose.p_WO.col(link.start), pose.p_WO.col(link.end), shape);
           const auto least_norm = static_cast<double>(oracle.least_norm());
           const bool surely_clear = (least_norm - 1) * shape.semi_axes().minCoeff() > clearance;
