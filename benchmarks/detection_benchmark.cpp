@@ -1,5 +1,6 @@
-// Time of one link-obstacle test, form by form. Inputs are made, and the forms' answers compared
-// with each other, before anything is timed.
+// Time of one link-obstacle test, form by form, and of the fields that BQSA asks, in space and by
+// projections. Inputs are made, and the forms' answers compared with each other, before anything is
+// timed.
 
 #include <benchmark/benchmark.h>
 
@@ -12,6 +13,8 @@
 
 #include "bqsa/geometry/paper_form.hpp"
 #include "bqsa/geometry/segment_test.hpp"
+#include "bqsa/obstacle_field.hpp"
+#include "bqsa/shadow_field.hpp"
 
 namespace bqsa {
 namespace {
@@ -125,6 +128,53 @@ const std::vector<Conic<double>> kConics = conics_of(kPlane);
 int paper_as_printed() { return paper_hits(kPlane, kConics, paper_form<double>); }
 int paper_shared() { return paper_hits(kPlane, kConics, paper_form_shared<double>); }
 
+/// A chain's obstacle as Field sees it, and the chain as a pose.
+template <typename Field>
+struct Asked {
+  Field field;
+  ChainPose pose;
+};
+
+template <typename Field>
+std::vector<Asked<Field>> asked(const Inputs<3>& inputs, WorkCounters& counters) {
+  std::vector<Asked<Field>> all;
+  for (const auto& [obstacle, points] : inputs.chains) {
+    Asked<Field>& chain = all.emplace_back();
+    chain.field.assign({{"obstacle", obstacle}}, counters);
+    chain.pose.p_WO.resize(3, static_cast<Eigen::Index>(points.size()));
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      chain.pose.p_WO.col(static_cast<Eigen::Index>(k)) = points[k];
+    }
+  }
+  return all;
+}
+
+WorkCounters space_work, shadow_work;
+const std::vector<Asked<ObstacleField<3>>> kSpaceFields =
+    asked<ObstacleField<3>>(kSpace, space_work);
+const std::vector<Asked<ShadowField>> kShadowFields = asked<ShadowField>(kSpace, shadow_work);
+
+template <typename Field>
+int field_hits(const std::vector<Asked<Field>>& chains) {
+  int hit_count = 0;
+  for (const Asked<Field>& chain : chains) {
+    for (int k = 0; k < kLinksPerChain; ++k) {
+      hit_count += chain.field.first_hit(chain.pose, {k + 1, k, k + 1}) >= 0;
+    }
+  }
+  return hit_count;
+}
+
+int space_field_hits() { return field_hits(kSpaceFields); }
+int shadow_field_hits() { return field_hits(kShadowFields); }
+
+/// Quadratics that a field evaluates in one pass, a pair.
+double quadratics_per_pair(int (*hits)(), const WorkCounters& work) {
+  const std::uint64_t before = work.quadratics;
+  hits();
+  return static_cast<double>(work.quadratics - before) / kPairs;
+}
+
 /// Times `hits()`, a pass over all pairs; "per_pair" is seconds a pair.
 template <typename Hits>
 void time_pairs(benchmark::State& state, const Hits& hits) {
@@ -149,6 +199,15 @@ void register_all() {
   add("space/parameter_form", [] { return parameter_hits(kSpace); });
   add("space/polar_form", [] { return polar_hits(kSpace); });
   add("space/polar_form_shared_ends", [] { return shared_polar_hits(kSpace); });
+  const auto add_field = [](const char* name, int (*hits)(), const WorkCounters& work) {
+    benchmark::RegisterBenchmark(name, [hits, &work](benchmark::State& s) {
+      time_pairs(s, hits);
+      s.counters["quadratics"] = quadratics_per_pair(hits, work);
+      s.counters["hits"] = static_cast<double>(hits()) / kPairs;
+    });
+  };
+  add_field("field/space", space_field_hits, space_work);
+  add_field("field/projections", shadow_field_hits, shadow_work);
 }
 
 /// Whether all forms find the same hits, and neither none nor only hits.
@@ -157,7 +216,8 @@ bool forms_agree() {
   return plane > 0 && plane < kPairs && space > 0 && space < kPairs &&
          plane == paper_as_printed() && plane == paper_shared() &&
          plane == parameter_hits(kPlane) && plane == shared_polar_hits(kPlane) &&
-         space == parameter_hits(kSpace) && space == shared_polar_hits(kSpace);
+         space == parameter_hits(kSpace) && space == shared_polar_hits(kSpace) &&
+         space == space_field_hits() && space < shadow_field_hits();
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "bqsa/bqsa_methods.hpp"
-#include "support/allocation_guard.hpp"
 #include "support/paper_problems.hpp"
 #include "support/replay.hpp"
 #include "support/sampling.hpp"
@@ -232,28 +231,6 @@ TEST(BqsaPlanar, ClampingKeepsJointLimitsOrRefuses) {
   const Replay run = replay(method, problem);
   EXPECT_GT(run.clamped_ticks, 0);
   for (const JointVector& q : run.q) EXPECT_TRUE(problem.within_limits(q));
-}
-
-TEST(BqsaPlanar, WarmStepsDoNotAllocate) {
-  for (const PlanarVariant variant : {PlanarVariant::kExact, PlanarVariant::kPaper}) {
-    const Problem problem = planar_7r();
-    BqsaPlanar method(variant);
-    method.prepare(problem);
-    StepInput input;
-    StepOutput output;
-    input.q = problem.start;
-    int clamped = 0;
-    test_support::AllocationGuard guard;
-    for (input.tick = 1; input.tick <= problem.ticks; ++input.tick) {
-      input.t = problem.time(input.tick);
-      input.p_WT_desired = problem.desired_tip(input.t);
-      method.step(input, output);
-      input.q = output.q;
-      clamped += output.state == TickState::kClamped;
-    }
-    EXPECT_EQ(guard.allocations(), 0U);
-    EXPECT_GT(clamped, 50);
-  }
 }
 
 TEST(BqsaPlanar, GivesTheSameTrajectoryEveryTime) {
