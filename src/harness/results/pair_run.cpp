@@ -1,21 +1,36 @@
 #include "harness/results/pair_run.hpp"
 
 namespace bqsa::harness {
+namespace {
+
+std::string why_not_run(const Problem& problem, const MethodSpec& method,
+                        const Disturbance& disturbance) {
+  std::string why = why_not_applicable(method.entry.capabilities, problem);
+  if (why.empty() && disturbance.on() && !is_reactive(method.entry, method.parameters)) {
+    why = "noise and latency disturb methods that answer tick by tick, this one plans";
+  }
+  return why;
+}
+
+}  // namespace
 
 StoredRun run_pair(const Scenario& scenario, const Judge& judge, const MethodSpec& method,
                    const Circumstances& circumstances, ResultStore& store) {
   const Problem& problem = scenario.problem;
   const MachineState machine = machine_state();
-  const std::string why_not = why_not_applicable(method.entry.capabilities, problem);
+  const std::string why_not = why_not_run(problem, method, circumstances.settings.disturbance);
   StoredRun run;
   std::unique_ptr<StagedTextFile> staged;
   if (why_not.empty()) {
     const RunOutcome outcome =
         run_method(problem, method.entry, method.parameters, circumstances.settings);
     const Judgement judgement = judge.judge(outcome.trajectory);
-    const std::string file = ResultStore::trajectory_file(problem.name, variant_name(method));
+    const std::string file =
+        ResultStore::trajectory_file(problem.name, variant_name(method, circumstances.settings));
     try {
-      staged = store.stage_trajectory(file, outcome.trajectory);
+      if (circumstances.store_trajectories) {
+        staged = store.stage_trajectory(file, outcome.trajectory);
+      }
     } catch (const InputError& error) {
       run.trajectory_error = error.what();
     }

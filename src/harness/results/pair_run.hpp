@@ -12,7 +12,8 @@ namespace bqsa::harness {
 
 struct StoredRun {
   std::string record;            ///< as stored
-  std::string trajectory_error;  ///< why the trajectory could not be stored; empty if it was
+  std::string trajectory_error;  ///< why the trajectory could not be stored; empty if it was,
+                                 ///< or was not to be
 };
 
 /// Runs the method if it applies to the scenario, judges it and stores record and trajectory, in

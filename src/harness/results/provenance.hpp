@@ -31,6 +31,9 @@ struct MachineState {
   std::string date;  ///< UTC, ISO 8601, to the second
 };
 
+/// Said of the times of a run that failed, beside the reasons of build and machine.
+inline constexpr const char* kNotASuccess = "not judged a success";
+
 const BuildInfo& build_info();
 MachineState machine_state();
 

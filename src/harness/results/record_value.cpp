@@ -21,6 +21,8 @@ RecordValue RecordValue::operator[](const char* key) const {
   return value;
 }
 
+bool RecordValue::has(const char* key) const { return json_.is_object() && json_.contains(key); }
+
 bool RecordValue::is_null() const { return json_.is_null(); }
 
 bool RecordValue::boolean() const {
@@ -34,6 +36,11 @@ int RecordValue::integer() const {
     refuse("expected a whole number");
   }
   return json_.get<int>();
+}
+
+std::uint64_t RecordValue::whole() const {
+  if (!json_.is_number_unsigned()) refuse("expected a whole number");
+  return json_.get<std::uint64_t>();
 }
 
 double RecordValue::number() const {

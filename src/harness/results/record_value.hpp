@@ -2,6 +2,7 @@
 /// Reading access to a stored record that trusts nothing and says what is wrong in plain words.
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
@@ -19,11 +20,15 @@ class RecordValue {
 
   RecordValue operator[](const char* key) const;
 
+  /// Whether this is an object that has the key; for keys that older records lack.
+  bool has(const char* key) const;
+
   bool is_null() const;
   bool boolean() const;
-  int integer() const;       ///< from 0 to the largest int
-  double number() const;     ///< not a number for null
-  std::string text() const;  ///< printable(), safe for a terminal
+  int integer() const;          ///< from 0 to the largest int
+  std::uint64_t whole() const;  ///< any that is not negative
+  double number() const;        ///< not a number for null
+  std::string text() const;     ///< printable(), safe for a terminal
   std::vector<RecordValue> list() const;
 
   [[noreturn]] void refuse(std::string_view why) const;

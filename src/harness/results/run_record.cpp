@@ -31,7 +31,7 @@ Json problem_json(const Problem& problem) {
           {"link_radius_m", problem.link_radius}};
 }
 
-Json method_json(const MethodSpec& method) {
+Json method_json(const MethodSpec& method, const RunSettings& settings) {
   Json parameters = Json::object();
   for (const ParameterDeclaration& declared : method.entry.parameters) {
     if (declared.choices.empty()) {
@@ -41,7 +41,7 @@ Json method_json(const MethodSpec& method) {
     }
   }
   return {{"name", method.entry.name},
-          {"variant", variant_name(method)},
+          {"variant", variant_name(method, settings)},
           {"changed", changed_parameters(method.parameters)},
           {"parameters", parameters}};
 }
@@ -66,6 +66,13 @@ Json claimed_json(const Problem& problem, const RunOutcome& outcome) {
   return claimed;
 }
 
+/// Pairs of bin and count.
+Json histogram_json(const LogHistogram& histogram) {
+  Json pairs = Json::array();
+  for (const auto& [bin, count] : histogram.counts()) pairs.push_back(Json::array({bin, count}));
+  return pairs;
+}
+
 Json ticks_json(const Problem& problem, const RunOutcome& outcome) {
   Json pairs = Json::array();
   for (const ClampedPair& pair : outcome.clamped_pairs) {
@@ -79,6 +86,11 @@ Json ticks_json(const Problem& problem, const RunOutcome& outcome) {
           {"clamped_pairs", pairs},
           {"increments_total", outcome.increments_total},
           {"increments_max", outcome.increments_max},
+          {"increments_tick_mean", outcome.increments.mean},
+          {"increments_tick_median", outcome.increments.median},
+          {"increments_tick_p99", outcome.increments.p99},
+          {"increments_tick_max", outcome.increments.max},
+          {"increments_tick_histogram", histogram_json(outcome.increments.histogram)},
           {"guard_fired", outcome.guard_fired}};
 }
 
@@ -130,7 +142,9 @@ Json counters_json(const WorkCounters& counters) {
 
 Json times_json(const RunTimes& times, bool success, const MachineState& machine) {
   std::vector<std::string> against = reasons_against_times(build_info(), machine);
-  if (!success) against.insert(against.begin(), "not judged a success");
+  if (!success) against.insert(against.begin(), kNotASuccess);
+  Json worst_q = Json::array();
+  for (const double angle : times.warm_max_q) worst_q.push_back(angle);
   return {{"valid", success},
           {"publishable", against.empty()},
           {"against", against},
@@ -141,8 +155,12 @@ Json times_json(const RunTimes& times, bool success, const MachineState& machine
           {"warm_steps", times.warm_steps},
           {"warm_median_s", times.warm_median_s},
           {"warm_p99_s", times.warm_p99_s},
+          {"warm_p999_s", times.warm_p999_s},
           {"warm_max_s", times.warm_max_s},
-          {"warm_max_tick", times.warm_max_tick}};
+          {"warm_max_tick", times.warm_max_tick},
+          {"warm_max_q_rad", worst_q},
+          {"warm_histogram", histogram_json(times.warm_histogram)},
+          {"run_s", times.run_s}};
 }
 
 Json provenance_json(const MachineState& machine, const Circumstances& circumstances) {
@@ -169,11 +187,17 @@ Json provenance_json(const MachineState& machine, const Circumstances& circumsta
           {"command_line", circumstances.command_line}};
 }
 
-Json head_json(const Scenario& scenario, const MethodSpec& method) {
+Json disturbance_json(const Disturbance& disturbance) {
+  return {{"joint_noise_rad", disturbance.joint_noise},
+          {"latency_ticks", disturbance.latency_ticks}};
+}
+
+Json head_json(const Scenario& scenario, const MethodSpec& method, const RunSettings& settings) {
   return {{"schema", "bqsa-run/1"},
           {"scenario", scenario_json(scenario)},
           {"problem", problem_json(scenario.problem)},
-          {"method", method_json(method)}};
+          {"method", method_json(method, settings)},
+          {"disturbance", disturbance_json(settings.disturbance)}};
 }
 
 /// Text that is not UTF-8, in a path say, is replaced rather than refused.
@@ -183,12 +207,16 @@ std::string one_line(const Json& record) {
 
 }  // namespace
 
+std::string variant_name(const MethodSpec& method, const RunSettings& settings) {
+  return variant_name(method) + suffix_of(settings.disturbance, settings.seed);
+}
+
 std::string run_record(const Scenario& scenario, const MethodSpec& method,
                        const RunOutcome& outcome, const Judgement& judgement,
                        const MachineState& machine, const Circumstances& circumstances,
                        const std::string& trajectory_file) {
   const bool success = judgement.success();
-  Json record = head_json(scenario, method);
+  Json record = head_json(scenario, method, circumstances.settings);
   record["claimed"] = claimed_json(scenario.problem, outcome);
   record["judged"] = judged_json(scenario.problem, judgement);
   record["claim_holds"] = claim_holds(outcome.claim, success);
@@ -203,7 +231,7 @@ std::string run_record(const Scenario& scenario, const MethodSpec& method,
 std::string not_applicable_record(const Scenario& scenario, const MethodSpec& method,
                                   const std::string& why, const MachineState& machine,
                                   const Circumstances& circumstances) {
-  Json record = head_json(scenario, method);
+  Json record = head_json(scenario, method, circumstances.settings);
   record["claimed"] = {{"status", "not applicable"}, {"message", why}};
   record["judged"] = nullptr;
   record["trajectory"] = nullptr;

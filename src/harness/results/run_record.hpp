@@ -16,10 +16,15 @@ namespace bqsa::harness {
 struct Circumstances {
   RunSettings settings;
   std::string command_line;
+  bool store_trajectories = true;
 };
 
+/// Name of a method as it ran, in records, tables and file names: variant_name(), and what disturbed
+/// it.
+std::string variant_name(const MethodSpec& method, const RunSettings& settings);
+
 /// A run that took place. Without a line break at the end.
-/// @param trajectory_file  relative to the results directory; empty if it could not be written
+/// @param trajectory_file  relative to the results directory; empty if it was not stored
 std::string run_record(const Scenario& scenario, const MethodSpec& method,
                        const RunOutcome& outcome, const Judgement& judgement,
                        const MachineState& machine, const Circumstances& circumstances,

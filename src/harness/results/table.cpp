@@ -10,12 +10,11 @@
 #include <utility>
 
 #include "harness/judge/judge.hpp"
+#include "harness/results/text_table.hpp"
 #include "harness/runner.hpp"
 
 namespace bqsa::harness {
 namespace {
-
-constexpr std::size_t kWidth = 120;
 
 constexpr std::string_view kMarks =
     "+ success   x failure   ! the method's claim and the judge's verdict differ   ? no verdict   "
@@ -54,17 +53,6 @@ std::vector<std::string> verdicts(const TableRow& row) {
   std::vector<std::string> list;
   for (const std::string& failure : row.failures) list.push_back(verdict_of(failure));
   return list;
-}
-
-/// Three significant digits, as short as they allow; "-" where there is no number.
-std::string figure(double value) {
-  if (!std::isfinite(value)) return "-";
-  const double size = std::abs(value);
-  if (size == 0) return "0";
-  if (size < 1e-3) return fmt::format("{:.1e}", value);
-  constexpr double kLongest = 1e6;
-  if (size >= kLongest) return fmt::format("{:.1e}", value);
-  return size < 100 ? fmt::format("{:.3g}", value) : fmt::format("{:.0f}", value);
 }
 
 std::string degrees(double rad) { return figure(rad * 180.0 / std::numbers::pi); }
@@ -128,7 +116,7 @@ std::string note(const std::string& label, const std::vector<std::string>& items
   std::string line = fmt::format("{}{}", kIndent, label);
   for (std::size_t i = 0; i < items.size(); ++i) {
     const std::string item = " " + items[i] + (i + 1 < items.size() ? "," : "");
-    if (line.size() + item.size() > kWidth && line.size() > kIndent.size()) {
+    if (line.size() + item.size() > kTableWidth && line.size() > kIndent.size()) {
       text += line + '\n';
       line = fmt::format("{} ", kIndent);
     }
@@ -144,6 +132,7 @@ std::string notes_of(const TableRow& row) {
     text += note(claims_success(row) ? "! CLAIMED SUCCESS, JUDGED A FAILURE"
                                      : "! CLAIMED " + row.claim + ", JUDGED A SUCCESS",
                  {});
+    if (!row.disturbance.empty()) text += note("  (of what the disturbed sensors told it)", {});
   }
   const std::vector<std::string> wrong = verdicts(row);
   std::vector<std::string> also;
@@ -165,6 +154,7 @@ std::string notes_of(const TableRow& row) {
     text += note(fmt::format("guard fired in {} of {} ticks", row.guard_fired, row.ticks), {});
   }
   if (!row.changed.empty()) text += note("with", {row.changed});
+  if (!row.disturbance.empty()) text += note("disturbed:", {row.disturbance});
   return text;
 }
 
@@ -172,6 +162,7 @@ std::string notes_of(const TableRow& row) {
 std::string time_notes(const std::vector<TableRow>& rows) {
   std::vector<std::string> reasons;
   for (const TableRow& row : rows) {
+    if (!row.success) continue;
     for (const std::string& reason : row.against_times) {
       if (std::find(reasons.begin(), reasons.end(), reason) == reasons.end()) {
         reasons.push_back(reason);
@@ -183,14 +174,35 @@ std::string time_notes(const std::vector<TableRow>& rows) {
 
 using Widths = std::array<std::size_t, kColumns.size()>;
 
-std::string line_of(char mark, const Cells& cells, const Widths& widths) {
+/// A method's name that is wider than its column stands on a line of its own.
+std::string line_of(char mark, Cells cells, const Widths& widths) {
   std::string line = fmt::format("{} ", mark);
+  if (cells[0].size() > widths[0]) {
+    line += fmt::format("  {}\n  ", cells[0]);
+    cells[0].clear();
+  }
   for (std::size_t c = 0; c < cells.size(); ++c) {
     const std::string text = kColumns[c].left ? fmt::format("{:<{}}", cells[c], widths[c])
                                               : fmt::format("{:>{}}", cells[c], widths[c]);
     line += "  " + text;
   }
   return line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
+}
+
+/// Widths of the columns, that of the names as narrow as the width of the table demands.
+Widths widths_of(const std::vector<Cells>& lines) {
+  Widths widths{};
+  for (const Cells& cells : lines) {
+    for (std::size_t c = 0; c < cells.size(); ++c) widths[c] = std::max(widths[c], cells[c].size());
+  }
+  constexpr std::size_t kMark = 2;
+  constexpr std::size_t kGap = 2;
+  std::size_t others = kMark + kGap * widths.size();
+  for (std::size_t c = 1; c < widths.size(); ++c) others += widths[c];
+  const std::size_t least = lines.front()[0].size();  // the head
+  const std::size_t room = others + least < kTableWidth ? kTableWidth - others : least;
+  widths[0] = std::min(widths[0], room);
+  return widths;
 }
 
 bool same_scenario(const TableRow& a, const TableRow& b) {
@@ -206,22 +218,6 @@ std::string scenario_title(const TableRow& row, const std::vector<TableRow>& row
   if (!ambiguous) return row.scenario;
   return fmt::format("{} (one of several files of this name, sha256 {})", row.scenario,
                      row.sha256.substr(0, kDigits));
-}
-
-/// The last run of each scenario file and variant, at the place of the first.
-std::vector<TableRow> last_runs(const std::vector<TableRow>& rows) {
-  std::vector<TableRow> shown;
-  for (const TableRow& row : rows) {
-    const auto older = std::find_if(shown.begin(), shown.end(), [&row](const TableRow& other) {
-      return same_scenario(other, row) && other.variant == row.variant;
-    });
-    if (older == shown.end()) {
-      shown.push_back(row);
-    } else {
-      *older = row;
-    }
-  }
-  return shown;
 }
 
 /// The rows that are the first of their kind.
@@ -270,13 +266,13 @@ std::string render_table(const std::vector<TableRow>& all_rows) {
   const std::vector<TableRow> rows = last_runs(all_rows);
   Cells heads;
   Cells units;
-  Widths widths;
   for (std::size_t c = 0; c < kColumns.size(); ++c) {
     heads[c] = kColumns[c].head;
     units[c] = kColumns[c].unit;
-    widths[c] = std::max(heads[c].size(), units[c].size());
-    for (const TableRow& row : rows) widths[c] = std::max(widths[c], cells_of(row)[c].size());
   }
+  std::vector<Cells> lines = {heads, units};
+  for (const TableRow& row : rows) lines.push_back(cells_of(row));
+  const Widths widths = widths_of(lines);
 
   std::string text;
   for (const TableRow& first : firsts(rows, same_scenario)) {

@@ -10,7 +10,7 @@
 
 namespace bqsa::harness {
 
-/// Plain text of at most 120 columns (longer names excepted): a block a scenario file, a row a method,
+/// Plain text of at most 120 columns (names longer than that excepted): a block a scenario file, a row a method,
 /// notes below the rows that need them, a legend with the definition of success. Blocks and rows
 /// stand in the order of first appearance; of several runs of the same scenario file and
 /// variant the last counts. Files of the same name with other bytes stand apart.

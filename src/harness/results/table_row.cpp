@@ -3,10 +3,16 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <tuple>
+#include <utility>
 
 #include "harness/judge/judge.hpp"
+#include "harness/results/provenance.hpp"
 #include "harness/results/record_value.hpp"
 #include "harness/runner.hpp"
 #include "harness/text_file.hpp"
@@ -60,21 +66,51 @@ std::vector<std::string> by_weight(std::vector<std::string> failures) {
   return failures;
 }
 
+void read_giving_up(const RecordValue& claimed, TableRow& row) {
+  row.failure_tick = claimed["tick"].integer();
+  row.claim = fmt::format("gave up at tick {}", row.failure_tick);
+  row.gave_up = claimed["reason"].text();
+  row.claim_detail = row.gave_up;
+  if (!claimed["link"].is_null()) {
+    row.failure_link = claimed["link"].integer();
+    row.claim_detail += fmt::format(", link {}", row.failure_link);
+  }
+  if (!claimed["obstacle"].is_null()) {
+    row.failure_obstacle = claimed["obstacle"].text();
+    row.claim_detail += ", " + row.failure_obstacle;
+  }
+  if (claimed.has("class")) row.claim_class = claimed["class"].text();
+}
+
 void read_claim(const RecordValue& claimed, TableRow& row) {
   row.claim = claimed["status"].text();
   if (row.claim == name_of(Claim::kInfeasible)) {
-    row.claim = fmt::format("gave up at tick {}", claimed["tick"].integer());
-    row.claim_detail = claimed["reason"].text();
-    if (!claimed["link"].is_null()) {
-      row.claim_detail += fmt::format(", link {}", claimed["link"].integer());
-    }
-    if (!claimed["obstacle"].is_null()) {
-      row.claim_detail += ", " + claimed["obstacle"].text();
-    }
+    read_giving_up(claimed, row);
   } else if (row.claim == name_of(Claim::kCrashed)) {
     const int tick = claimed["tick"].integer();
+    row.failure_tick = tick;
     if (tick > 0) row.claim += fmt::format(" at tick {}", tick);
     row.claim_detail = claimed["message"].text();
+  }
+}
+
+/// Where it went wrong, by the failure that tells most; of one that only stopped early the claim has
+/// said it.
+void read_place(const RecordValue& judged, TableRow& row) {
+  if (row.success || row.failures.front() == name_of(Failure::kIncomplete)) return;
+  row.failure_tick = -1;
+  row.failure_link = 0;
+  row.failure_obstacle.clear();
+  const std::vector<RecordValue> contacts = judged["contacts"].list();
+  const std::string& failure = row.failures.front();
+  if (failure == name_of(Failure::kCollision) && !contacts.empty()) {
+    row.failure_tick = contacts.front()["first_tick"].integer();
+    row.failure_link = contacts.front()["link"].integer();
+    row.failure_obstacle = contacts.front()["obstacle"].text();
+  } else if (failure == name_of(Failure::kDrift)) {
+    row.failure_tick = judged["tip_error_at_ticks"]["max_tick"].integer();
+  } else if (failure == name_of(Failure::kJump)) {
+    row.failure_tick = judged["max_joint_step_tick"].integer();
   }
 }
 
@@ -89,6 +125,7 @@ void read_judgement(const RecordValue& judged, TableRow& row) {
   for (const RecordValue& contact : judged["contacts"].list()) {
     row.collided.push_back(pair_text(contact));
   }
+  read_place(judged, row);
   if (row.success && !row.collided.empty()) {
     judged["contacts"].refuse("contradict judged.success");
   }
@@ -100,20 +137,83 @@ void read_judgement(const RecordValue& judged, TableRow& row) {
   row.max_joint_step_rad = judged["max_joint_step_rad"].number();
 }
 
+/// Whether the claim agrees with the verdict, which the record says and has to be right about.
+bool read_claim_holds(const RecordValue& record, bool success) {
+  static constexpr std::array kClaims{Claim::kSuccess, Claim::kNothing, Claim::kInfeasible,
+                                      Claim::kUnsolved, Claim::kCrashed};
+  const RecordValue status = record["claimed"]["status"];
+  const std::string name = status.text();
+  const auto* claim = std::find_if(kClaims.begin(), kClaims.end(),
+                                   [&name](Claim known) { return name == name_of(known); });
+  if (claim == kClaims.end()) {
+    status.refuse(fmt::format("expected a claim, got {}", excerpt(name)));
+  }
+  const bool holds = record["claim_holds"].boolean();
+  if (holds != claim_holds(*claim, success)) {
+    record["claim_holds"].refuse("contradicts claimed.status and judged.success");
+  }
+  return holds;
+}
+
+LogHistogram histogram(const RecordValue& pairs) {
+  LogHistogram counts;
+  for (const RecordValue& pair : pairs.list()) {
+    const std::vector<RecordValue> numbers = pair.list();
+    if (numbers.size() != 2) pair.refuse("expected a pair of bin and count");
+    counts.add_bin(numbers[0].integer(), numbers[1].integer());
+  }
+  return counts;
+}
+
+void read_times(const RecordValue& times, TableRow& row) {
+  for (const std::string& reason : texts(times["against"])) {
+    if (reason != kNotASuccess) row.against_times.push_back(reason);
+  }
+  row.slowest_s = times["warm_max_s"].number();
+  row.slowest_tick = times["warm_max_tick"].integer();
+  if (times.has("warm_max_q_rad")) {
+    for (const RecordValue& angle : times["warm_max_q_rad"].list()) {
+      row.slowest_q.push_back(angle.number());
+    }
+  }
+  if (times.has("run_s")) row.run_s = times["run_s"].number();
+  if (!row.success) return;
+  row.plan_s = times["plan_s"].number();
+  row.step_median_s = times["warm_median_s"].number();
+  row.step_p99_s = times["warm_p99_s"].number();
+  if (times.has("warm_histogram")) row.step_times = histogram(times["warm_histogram"]);
+}
+
 void read_run(const RecordValue& record, TableRow& row) {
   read_judgement(record["judged"], row);
-  row.claim_holds = record["claim_holds"].boolean();
+  row.claim_holds = read_claim_holds(record, row.success);
   const RecordValue ticks = record["ticks"];
   for (const RecordValue& pair : ticks["clamped_pairs"].list()) {
     row.clamped.push_back(fmt::format("{} x {}", pair_text(pair), pair["ticks"].integer()));
   }
   row.guard_fired = ticks["guard_fired"].integer();
-  if (!row.success) return;
-  const RecordValue times = record["times"];
-  row.plan_s = times["plan_s"].number();
-  row.step_median_s = times["warm_median_s"].number();
-  row.step_p99_s = times["warm_p99_s"].number();
-  row.against_times = texts(times["against"]);
+  if (row.success && ticks.has("increments_tick_histogram")) {
+    row.increments = histogram(ticks["increments_tick_histogram"]);
+    row.increments_max = ticks["increments_tick_max"].integer();
+  }
+  read_times(record["times"], row);
+}
+
+std::string disturbance_text(const RecordValue& record) {
+  if (!record.has("disturbance")) return "";
+  const RecordValue disturbance = record["disturbance"];
+  const double noise = disturbance["joint_noise_rad"].number();
+  std::string text;
+  if (noise > 0) {
+    text = fmt::format("joint angles read with normal noise of {:.4g} rad, seed {}", noise,
+                       record["provenance"]["seed"].whole());
+  }
+  const int latency = disturbance["latency_ticks"].integer();
+  if (latency > 0) {
+    text += fmt::format("{}read {} late", text.empty() ? "joint angles " : ", ",
+                        counted(latency, "tick"));
+  }
+  return text;
 }
 
 }  // namespace
@@ -138,6 +238,7 @@ TableRow parse_run_record(std::string_view text) {
   row.ticks = record["problem"]["ticks"].integer();
   row.variant = record["method"]["variant"].text();
   row.changed = record["method"]["changed"].text();
+  row.disturbance = disturbance_text(record);
   row.build = build_text(record["provenance"]);
   read_claim(record["claimed"], row);
   row.applicable = !record["judged"].is_null();
@@ -147,6 +248,27 @@ TableRow parse_run_record(std::string_view text) {
     row.claim_detail = record["claimed"]["message"].text();
   }
   return row;
+}
+
+std::vector<TableRow> last_runs(const std::vector<TableRow>& rows) {
+  std::vector<TableRow> shown;
+  std::map<std::tuple<std::string, std::string, std::string>, std::size_t> places;
+  for (const TableRow& row : rows) {
+    const auto [place, first] =
+        places.try_emplace({row.scenario, row.sha256, row.variant}, shown.size());
+    if (first) {
+      shown.push_back(row);
+    } else {
+      shown[place->second] = row;
+    }
+  }
+  return shown;
+}
+
+std::size_t count_scenarios(const std::vector<TableRow>& rows) {
+  std::set<std::pair<std::string, std::string>> files;
+  for (const TableRow& row : rows) files.insert({row.scenario, row.sha256});
+  return files.size();
 }
 
 }  // namespace bqsa::harness

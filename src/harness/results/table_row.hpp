@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "harness/input_error.hpp"
+#include "harness/log_histogram.hpp"
 
 namespace bqsa::harness {
 
@@ -16,12 +17,13 @@ struct TableRow {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
   std::string scenario;
-  std::string sha256;   ///< of the scenario file
-  std::string problem;  ///< sizes of the problem, as text
-  std::string variant;  ///< method, with the hash of its changed parameters
-  std::string changed;  ///< those parameters
-  std::string build;    ///< program, compiler and machine, as text
-  int ticks = 0;        ///< of the problem
+  std::string sha256;       ///< of the scenario file
+  std::string problem;      ///< sizes of the problem, as text
+  std::string variant;      ///< method, with the hash of its changed parameters
+  std::string changed;      ///< those parameters
+  std::string disturbance;  ///< what disturbed it, as text; empty if nothing did
+  std::string build;        ///< program, compiler and machine, as text
+  int ticks = 0;            ///< of the problem
 
   bool applicable = true;
   bool success = false;  ///< as judged
@@ -30,6 +32,14 @@ struct TableRow {
   std::string claim_detail;           ///< why, if the method says so
   std::vector<std::string> failures;  ///< names of the judge's failures, the most telling first
   std::string disagreement;
+  std::string gave_up;      ///< name of the reason why a reactive method gave up; else empty
+  std::string claim_class;  ///< of a method that gave up: `claimed.class` of a later analysis
+
+  /// Where a run failed, as far as it is known: of a collision the first one, of a method that gave
+  /// up the link that it could not free.
+  int failure_tick = -1;         ///< -1 if there is none
+  int failure_link = 0;          ///< 0 if there is none
+  std::string failure_obstacle;  ///< empty if there is none
 
   int rows = 0;                       ///< rows of the trajectory, the start included
   std::vector<std::string> collided;  ///< `(6, obstacle)`
@@ -42,19 +52,33 @@ struct TableRow {
   bool touching = false;
   double max_joint_step_rad = kNone;
 
-  /// Times are read for successes only: a run that collides, drifts or lies has none.
+  /// Of ticks these are read for successes only: a run that collides, drifts or lies has none.
   double plan_s = kNone;
   double step_median_s = kNone;
   double step_p99_s = kNone;
-  std::vector<std::string>
-      against_times;  ///< why the times are only indicative; empty if they count
+  LogHistogram step_times;  ///< in RunTimes::kHistogramUnit
+  LogHistogram increments;  ///< of the ticks in which a link was cleared
+  int increments_max = 0;   ///< likewise, the exact one
+
+  /// Of any run.
+  std::vector<std::string> against_times;  ///< why its times are only indicative; success apart
+  double slowest_s = kNone;  ///< its slowest tick from 2 on, the one that gave up included
+  int slowest_tick = 0;
+  std::vector<double> slowest_q;  ///< what the method was told then [rad]; empty in old records
+  double run_s = kNone;           ///< wall time of the whole run
 };
 
 /// A length in millimetres, from 10 m on in metres, with its unit.
 std::string length_text(double metres);
 
 /// @throws InputError if the text is cut short, is not a record of schema bqsa-run/1, or contradicts
-///   itself about success
+///   itself about success or the claim
 TableRow parse_run_record(std::string_view record);
+
+/// The last run of each scenario file and variant, at the place of the first.
+std::vector<TableRow> last_runs(const std::vector<TableRow>& rows);
+
+/// Number of different scenario files.
+std::size_t count_scenarios(const std::vector<TableRow>& rows);
 
 }  // namespace bqsa::harness
