@@ -8,8 +8,11 @@ namespace {
 
 constexpr int kMaxPlanes = 60;
 
-/// Relative change of mu at which the search ends. The bound errs with its square.
+/// Change of mu at which the search ends, relative to mu: the bound errs with its square.
 constexpr double kConverged = 1e-7;
+
+/// Change of mu that is rounding, relative to the least a_i² + mu.
+constexpr double kRounding = 1e-14;
 
 }  // namespace
 
@@ -32,7 +35,10 @@ NearestPlane<Dim> nearest_plane(const EllipsoidN<Dim>& ellipsoid,
     const double towards = -x1.dot(weighted_d);
     const double curvature = d.dot(weighted_d);
     const double t = !(towards > 0) ? 0 : towards < curvature ? towards / curvature : 1;
-    const Vector n = weight.cwiseProduct(x1 + t * d);
+    Vector n = weight.cwiseProduct(x1 + t * d);
+    // Of a thin shape, x1 + t d has lost digits; the vertex says that n is across the segment.
+    const bool across = 0 < t && t < 1;
+    if (across) n -= n.dot(d) / d.squaredNorm() * d;
     const double length = n.norm();
     if (!(length > 0)) break;  // the segment passes through the centre
     const double support_squared = n.cwiseAbs2().dot(a_squared);
@@ -47,12 +53,13 @@ NearestPlane<Dim> nearest_plane(const EllipsoidN<Dim>& ellipsoid,
     if (meet || distance > enough) break;
 
     (support > 1 ? low : high) = mu;
-    const double turn = 0 < t && t < 1 ? n.dot(weighted_d) : 0;  // of the vertex with mu
+    const double turn = across ? n.dot(weighted_d) : 0;  // of the vertex with mu
     const double slope = n.cwiseAbs2().cwiseProduct(a_squared).dot(weight) +
                          (turn != 0 ? mu * turn * turn / curvature : 0);  // -1/2 of the derivative
     double next = mu + support_squared * (support - 1) / slope;
     if (!(low <= next && next <= high)) next = std::isfinite(high) ? 0.5 * (low + high) : 2 * mu;
-    if (std::abs(next - mu) <= kConverged * mu) break;
+    const double change = std::abs(next - mu);
+    if (change <= kConverged * mu || change <= kRounding * (a_squared.minCoeff() + mu)) break;
     mu = next;
   }
   best.normal = ellipsoid.rotation() * best_normal;

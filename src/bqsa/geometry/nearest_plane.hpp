@@ -29,11 +29,11 @@ struct NearestPlane {
 ///
 /// Its derivative, with t* the clamped vertex for this mu, is sum_i a_i² n_i² - 1 with the normal
 /// n_i = x_i(t*) / (a_i² + mu). At mu = 0 this is the plane of `separation`; from there Newton's method
-/// on 1 / sqrt(sum_i a_i² n_i²) = 1, inside a bracket, finds the root in 2 to 6 planes for most shapes.
+/// on 1 / sqrt(sum_i a_i² n_i²) = 1, inside a bracket, finds the root: after 5 planes on average, 18 at most in the tests.
 ///
-/// Short of the oracle's distance by at most 1e-9 of it (and 1e-14 of the lengths in play), over
-/// needles, sheets and balls of axis ratio up to 1e5, links of zero length, far away and near contact. A search
-/// that ends early, after kMaxPlanes, costs tightness only.
+/// In the tests it falls short of the distance by at most 4e-15 of the lengths in play: needles, sheets,
+/// blades and balls of axis ratios up to 1e5, links of zero length, far away and near contact. A search
+/// that would end without convergence would cost tightness only.
 ///
 /// If they meet, distance is not positive, and the plane is that of `separation`.
 ///
