@@ -1,0 +1,264 @@
+#include "harness/generator/generator.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+
+#include "harness/generator/draw_obstacle.hpp"
+#include "harness/generator/draw_path.hpp"
+#include "harness/generator/nominal_motion.hpp"
+#include "harness/generator/random_stream.hpp"
+#include "harness/generator/scenario_draft.hpp"
+#include "harness/input_error.hpp"
+
+namespace bqsa::harness {
+namespace {
+
+constexpr double kDuration = 5;  // [s]
+constexpr int kTicks = 200;
+constexpr int kAttempts = 10000;
+
+constexpr int kFewestLinks = 5;  // of planar arms
+constexpr int kMostLinks = 9;
+constexpr int kMostPlanarObstacles = 4;
+constexpr int kMostSpatialObstacles = 3;
+
+/// Where paths stay, of the arm's reach.
+constexpr double kNearest = 0.2;
+constexpr double kFarthest = 0.95;
+constexpr double kFarthestStretched = 0.996;
+
+/// How many obstacles of a scenario are put on links and how many near them.
+struct ObstaclePlan {
+  int on_links = 0;  ///< beyond the first
+  int near = 0;
+};
+
+/// What is drawn once for an index, so that no filter makes some of it rarer.
+struct Structure {
+  Arm arm;
+  ObstaclePlan plan;
+};
+
+Structure draw_structure(const Family& family, int index, const std::vector<Arm>& spatial_arms,
+                         RandomStream random) {
+  const bool planar = family.planar && (!family.spatial || index % 2 == 0);
+  const auto turn = static_cast<std::size_t>(family.planar ? index / 2 : index);
+  Structure structure{planar ? planar_arm(random.whole(kFewestLinks, kMostLinks))
+                             : spatial_arms.at(turn % spatial_arms.size()),
+                      {}};
+  if (family.obstacles == ObstacleKind::kSome) {
+    const int more = random.whole(0, (planar ? kMostPlanarObstacles : kMostSpatialObstacles) - 1);
+    for (int i = 0; i < more; ++i) {
+      ++(random.chance(0.5) ? structure.plan.on_links : structure.plan.near);
+    }
+  }
+  if (family.obstacles == ObstacleKind::kMoving) structure.plan.near = random.chance(1.0 / 3);
+  return structure;
+}
+
+/// An arm at a random start and a path from there, no obstacles. None where there is no such path.
+std::optional<ScenarioDraft> draw_task(const Family& family, const Arm& arm, RandomStream& random) {
+  ScenarioDraft draft{.robot = arm.chain, .limits = arm.limits};
+  draft.duration = kDuration;
+  draft.ticks = kTicks;
+  draft.start.resize(arm.start_low.size());
+  for (Eigen::Index j = 0; j < draft.start.size(); ++j) {
+    draft.start(j) = rounded(random.uniform(arm.start_low(j), arm.start_high(j)));
+  }
+  ChainPose pose;
+  SerialChain(arm.chain).forward(draft.start, pose);
+  if (family.paths == PathKind::kLineOrArc) {
+    draft.path = draw_line_or_arc(pose.tip(), arm.chain.dimension, random);
+  } else {
+    const std::optional<PathDraft> path = draw_stretching_arc(pose.tip(), arm, random);
+    if (!path) return std::nullopt;
+    draft.path = *path;
+  }
+  return draft;
+}
+
+/// Why the nominal motion is of no use.
+std::optional<Filter> objection(const Family& family, const Arm& arm,
+                                const NominalMotion& nominal) {
+  const bool stretched = family.paths == PathKind::kStretchingArc;
+  const double farthest = stretched ? kFarthestStretched : kFarthest;
+  if (!nominal.path_within(arm.center, kNearest * arm.reach, farthest * arm.reach)) {
+    return Filter::kReach;
+  }
+  if (!nominal.keeps_limits()) return Filter::kLimits;
+  if (!stretched && !nominal.tracks()) return Filter::kTracking;
+  return std::nullopt;
+}
+
+/// Why an obstacle may not stand where it does.
+std::optional<Filter> objection(const NominalMotion& nominal, const Obstacle& obstacle) {
+  if (!nominal.start_is_clear(obstacle)) return Filter::kStart;
+  if (!nominal.path_is_clear(obstacle)) return Filter::kTipPath;
+  if (!nominal.inner_links_are_clear(obstacle)) return Filter::kInnerLinks;
+  return std::nullopt;
+}
+
+/// Obstacles drawn together until none is objected to and, where asked for, the nominal arm hits
+/// the first. None if that does not come about.
+template <typename Draw>
+std::optional<std::vector<ObstacleDraft>> place(const NominalMotion& nominal, bool hit, Draw&& draw,
+                                                RandomStream& random, Rejections& rejections) {
+  const Problem& problem = nominal.problem();
+  for (int i = 0; i < kPlacements; ++i) {
+    std::vector<ObstacleDraft> drafts = draw(nominal, random);
+    std::optional<Filter> why;
+    for (const ObstacleDraft& draft : drafts) {
+      const Obstacle obstacle = to_obstacle(draft, problem.dimension(), problem.ticks, problem.dt);
+      if (!why) why = objection(nominal, obstacle);
+      if (!why && hit && &draft == &drafts.front() && !nominal.outer_link_hits(obstacle)) {
+        why = Filter::kNoHit;
+      }
+    }
+    if (!why) return drafts;
+    rejections.count(*why);
+  }
+  return std::nullopt;
+}
+
+/// All obstacles of a scenario. None if one of them found no place.
+std::optional<std::vector<ObstacleDraft>> place_all(const Family& family, const ObstaclePlan& plan,
+                                                    const NominalMotion& nominal,
+                                                    RandomStream& random, Rejections& rejections) {
+  using Drafts = std::vector<ObstacleDraft>;
+  Drafts all;
+  const auto add = [&](bool hit, const auto& draw) {
+    std::optional<Drafts> placed = place(nominal, hit, draw, random, rejections);
+    if (placed) all.insert(all.end(), placed->begin(), placed->end());
+    return placed.has_value();
+  };
+  const auto on_link = [](const auto& motion, auto& stream) {
+    return Drafts{draw_on_link(motion, stream)};
+  };
+  const auto near = [](const auto& motion, auto& stream) {
+    return Drafts{draw_near(motion, stream)};
+  };
+  const auto moving = [](const auto& motion, auto& stream) {
+    return Drafts{draw_moving(motion, stream)};
+  };
+  const auto gap = [](const auto& motion, auto& stream) {
+    const auto [first, second] = draw_gap(motion, stream);
+    return Drafts{first, second};
+  };
+
+  bool placed = false;
+  switch (family.obstacles) {
+    case ObstacleKind::kSome:
+    case ObstacleKind::kOne:
+      placed = add(true, on_link);
+      break;
+    case ObstacleKind::kMoving:
+      placed = add(true, moving);
+      break;
+    case ObstacleKind::kGap:
+      placed = add(true, gap);
+      break;
+  }
+  for (int i = 0; placed && i < plan.on_links; ++i) placed = add(false, on_link);
+  for (int i = 0; placed && i < plan.near; ++i) placed = add(false, near);
+  if (!placed) return std::nullopt;
+  for (std::size_t i = 0; i < all.size(); ++i) all[i].name = fmt::format("obstacle_{}", i + 1);
+  return all;
+}
+
+/// One attempt at a scenario, without its name.
+std::optional<ScenarioDraft> draw_scenario(const Family& family, const Structure& structure,
+                                           RandomStream& random, Rejections& rejections) {
+  std::optional<ScenarioDraft> draft = draw_task(family, structure.arm, random);
+  if (!draft) {
+    rejections.count(Filter::kReach);
+    return std::nullopt;
+  }
+  const NominalMotion nominal(to_problem(*draft));
+  if (const std::optional<Filter> why = objection(family, structure.arm, nominal)) {
+    rejections.count(*why);
+    return std::nullopt;
+  }
+  const auto obstacles = place_all(family, structure.plan, nominal, random, rejections);
+  if (!obstacles) {
+    rejections.count(Filter::kUnplaceable);
+    return std::nullopt;
+  }
+  draft->obstacles = *obstacles;
+  return draft;
+}
+
+}  // namespace
+
+const std::vector<Family>& families() {
+  static const std::vector<Family> kFamilies = {
+      {.name = "planar",
+       .summary = "planar arms of 5 to 9 links, 1 to 4 ellipses on and near the links",
+       .planar = true},
+      {.name = "spatial",
+       .summary = "iiwa 14 and Panda in turn, 1 to 3 ellipsoids on and near the links",
+       .spatial = true},
+      {.name = "moving",
+       .summary = "planar and spatial arms in turn, an obstacle that moves into a link",
+       .planar = true,
+       .spatial = true,
+       .obstacles = ObstacleKind::kMoving},
+      {.name = "singular",
+       .summary = "planar and spatial arms in turn, nearly stretched on the way, one obstacle",
+       .planar = true,
+       .spatial = true,
+       .paths = PathKind::kStretchingArc,
+       .obstacles = ObstacleKind::kOne},
+      {.name = "narrow",
+       .summary = "planar arms, two ellipses with a gap of 40 to 120 mm beside a link",
+       .planar = true,
+       .obstacles = ObstacleKind::kGap},
+  };
+  return kFamilies;
+}
+
+const char* name_of(Filter filter) {
+  switch (filter) {
+    case Filter::kReach:
+      return "reach";
+    case Filter::kLimits:
+      return "joint_limits";
+    case Filter::kTracking:
+      return "tracking";
+    case Filter::kUnplaceable:
+      return "unplaceable";
+    case Filter::kStart:
+      return "start";
+    case Filter::kTipPath:
+      return "tip_path";
+    case Filter::kInnerLinks:
+      return "inner_links";
+    case Filter::kNoHit:
+      return "no_hit";
+  }
+  return "";
+}
+
+GeneratedScenario generate(const Family& family, std::uint64_t seed, int index,
+                           const std::vector<Arm>& spatial_arms, Rejections& rejections) {
+  const auto number = static_cast<std::uint64_t>(&family - families().data());
+  const auto place_in_family = static_cast<std::uint64_t>(index);
+  const Structure structure =
+      draw_structure(family, index, spatial_arms, RandomStream{seed, number, place_in_family, 0});
+  for (std::uint64_t attempt = 1; attempt <= kAttempts; ++attempt) {
+    RandomStream random{seed, number, place_in_family, attempt};
+    std::optional<ScenarioDraft> draft = draw_scenario(family, structure, random, rejections);
+    if (!draft) continue;
+    draft->name = fmt::format("{}_s{}_{:05}", family.name, seed, index);
+    draft->description =
+        fmt::format("Generated by bqsa-bench, family {}, seed {}, index {}, generator version {}",
+                    family.name, seed, index, kGeneratorVersion);
+    return {draft->name, to_yaml(*draft)};
+  }
+  throw InputError(
+      fmt::format("{}: expected an arm that allows scenario {}, got none in {} attempts",
+                  family.name, index, kAttempts));
+}
+
+}  // namespace bqsa::harness

@@ -1,0 +1,79 @@
+/// @file
+/// Families of random problems, made by rules that were fixed beforehand and know nothing of any
+/// avoiding method.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "harness/generator/arm.hpp"
+
+namespace bqsa::harness {
+
+/// Goes up whenever a family, seed and index give other bytes than before.
+inline constexpr int kGeneratorVersion = 1;
+
+enum class PathKind {
+  kLineOrArc,      ///< well within reach
+  kStretchingArc,  ///< out to 97 to 99.5 % of the reach, in the middle of the motion
+};
+
+enum class ObstacleKind {
+  kSome,    ///< one on an outer link of the nominal arm, up to three more there or near
+  kOne,     ///< one on an outer link
+  kMoving,  ///< one that meets an outer link on its way, sometimes one more at rest
+  kGap,     ///< two on both sides of an outer link, one of them on it
+};
+
+struct Family {
+  std::string name;
+  std::string summary;  ///< one line
+  bool planar = false;
+  bool spatial = false;  ///< of both, even indices are planar
+  PathKind paths = PathKind::kLineOrArc;
+  ObstacleKind obstacles = ObstacleKind::kSome;
+};
+
+const std::vector<Family>& families();
+
+/// Why something drawn was thrown away.
+enum class Filter {
+  kReach,        ///< an arm and path: the path leaves the shell that it has to stay in
+  kLimits,       ///< an arm and path: the nominal motion exceeds a joint limit
+  kTracking,     ///< an arm and path: the nominal motion exceeds the tolerance or a largest step
+  kUnplaceable,  ///< an arm and path: one of its obstacles passed no filter in kPlacements tries
+  kStart,        ///< an obstacle: a link is too near at the start
+  kTipPath,      ///< an obstacle: the tip's path is too near
+  kInnerLinks,   ///< an obstacle: the nominal links 1 and 2 come too near
+  kNoHit,        ///< an obstacle that has to be hit by the nominal arm is not
+};
+inline constexpr int kFilters = 8;
+inline constexpr int kPlacements = 30;
+
+const char* name_of(Filter filter);
+
+/// How often each filter threw something away.
+class Rejections {
+ public:
+  void count(Filter filter) { ++counts_[static_cast<std::size_t>(filter)]; }
+  long operator[](Filter filter) const { return counts_[static_cast<std::size_t>(filter)]; }
+
+ private:
+  std::array<long, kFilters> counts_{};
+};
+
+struct GeneratedScenario {
+  std::string name;  ///< `<family>_s<seed>_<index>`, the index of five digits
+  std::string yaml;  ///< the file
+};
+
+/// Scenario `index` of a family and seed: always the same bytes, whatever else is generated.
+/// @param spatial_arms  for a spatial family, used in turn; else may be empty
+/// @param rejections    counted up
+/// @throws InputError if the arms allow no such problem
+GeneratedScenario generate(const Family& family, std::uint64_t seed, int index,
+                           const std::vector<Arm>& spatial_arms, Rejections& rejections);
+
+}  // namespace bqsa::harness

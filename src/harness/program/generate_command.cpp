@@ -1,0 +1,78 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <ostream>
+#include <system_error>
+
+#include "harness/generator/generator.hpp"
+#include "harness/program/commands.hpp"
+#include "harness/text_file.hpp"
+
+namespace bqsa::harness {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
+
+const Family& family_of(const std::string& name) {
+  std::string known;
+  for (const Family& family : families()) {
+    if (family.name == name) return family;
+    known += (known.empty() ? "" : ", ") + family.name;
+  }
+  throw InputError(fmt::format("--family: expected one of {}, got {}", known, excerpt(name)));
+}
+
+/// Whether the file is there with just these bytes; other bytes are not overwritten.
+bool is_there(const fs::path& file, const std::string& yaml) {
+  std::error_code unknown;
+  if (fs::symlink_status(file, unknown).type() == fs::file_type::not_found) return false;
+  if (read_text_file(file, kMaxBytes) == yaml) return true;
+  throw InputError(fmt::format(
+      "{}: expected no file or the scenario to be written, got another one", file.string()));
+}
+
+std::string counted(const Rejections& rejections, std::initializer_list<Filter> filters) {
+  std::string text;
+  for (const Filter filter : filters) {
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name_of(filter), rejections[filter]);
+  }
+  return text;
+}
+
+}  // namespace
+
+Status generate_command(const GenerateOptions& options, const Console& console) {
+  const Family& family = family_of(options.family);
+  std::error_code error;
+  fs::create_directories(options.directory, error);
+  if (!fs::is_directory(options.directory)) {
+    throw InputError(
+        fmt::format("{}: expected a directory that can be made, got one that cannot ({})",
+                    options.directory.string(), error.message()));
+  }
+  Rejections rejections;
+  int there = 0;
+  for (int index = 0; index < options.count; ++index) {
+    const GeneratedScenario scenario = generate(family, options.seed, index, {}, rejections);
+    const fs::path file = options.directory / (scenario.name + ".yaml");
+    if (is_there(file, scenario.yaml)) {
+      ++there;
+    } else {
+      write_text_file(file, scenario.yaml);
+    }
+    if (console.terminal) {
+      console.err << fmt::format("\r\033[K{} of {}", index + 1, options.count) << std::flush;
+    }
+  }
+  if (console.terminal) console.err << "\r\033[K" << std::flush;
+  console.out << fmt::format(
+      "{}: wrote {} scenarios, {} were there; rejected arms and paths: {}; obstacles: {}\n",
+      options.directory.string(), options.count - there, there,
+      counted(rejections,
+              {Filter::kReach, Filter::kLimits, Filter::kTracking, Filter::kUnplaceable}),
+      counted(rejections, {Filter::kStart, Filter::kTipPath, Filter::kInnerLinks, Filter::kNoHit}));
+  return kOk;
+}
+
+}  // namespace bqsa::harness
