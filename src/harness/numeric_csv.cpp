@@ -58,20 +58,25 @@ class Lines {
 
 NumericTable read_numeric_csv(const std::filesystem::path& file, const std::string& header,
                               std::size_t max_bytes) {
-  const std::string text = read_text_file(file, max_bytes);
+  return parse_numeric_csv(file.string(), read_text_file(file, max_bytes), {header});
+}
+
+NumericTable parse_numeric_csv(const std::string& file, std::string_view text,
+                               const std::vector<std::string>& headers) {
+  const std::string expected = fmt::format("the header {}", fmt::join(headers, " or "));
   if (text.empty()) {
-    throw InputError(
-        fmt::format("{}: expected the header {}, got an empty file", file.string(), header));
+    throw InputError(fmt::format("{}: expected {}, got an empty file", file, expected));
   }
   constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
   std::string_view content = text;
   if (content.starts_with(kByteOrderMark)) content.remove_prefix(kByteOrderMark.size());
-  Lines lines(content, file.string());
+  Lines lines(content, file);
   const std::string_view first = lines.next();
-  if (first != header) lines.fail("the header " + header, excerpt(first));
+  const auto header = std::find(headers.begin(), headers.end(), first);
+  if (header == headers.end()) lines.fail(expected, excerpt(first));
 
   NumericTable table;
-  const std::vector<std::string_view> names = fields_of(header);
+  const std::vector<std::string_view> names = fields_of(*header);
   table.columns = names.size();
   while (!lines.done()) {
     const std::string_view line = lines.next();

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "harness/input_error.hpp"
@@ -29,6 +30,11 @@ struct NumericTable {
 /// @throws InputError naming file, line, column, what was expected and what was found
 NumericTable read_numeric_csv(const std::filesystem::path& file, const std::string& header,
                               std::size_t max_bytes);
+
+/// The same from the content of a file that may have any of several headers.
+/// @param file  its name in messages
+NumericTable parse_numeric_csv(const std::string& file, std::string_view text,
+                               const std::vector<std::string>& headers);
 
 /// Appends the shortest text that reads back as the same number.
 void append_number(std::string& text, double number);

@@ -25,6 +25,22 @@ Eigen::Vector3d evaluate(const Polyline& line, double s) {
   return (1 - part) * line.points[i] + part * line.points[i + 1];
 }
 
+double way_along(const Arc& arc, double from, double to) {
+  return std::max(arc.u.norm(), arc.v.norm()) * std::abs(arc.to - arc.from) * (to - from);
+}
+
+double way_along(const Polyline& line, double from, double to) {
+  const auto first = std::upper_bound(line.knots.begin(), line.knots.end(), from);
+  Eigen::Vector3d last = evaluate(line, from);
+  double sum = 0;
+  for (auto knot = first; knot != line.knots.end() && *knot < to; ++knot) {
+    const Eigen::Vector3d& next = line.points[static_cast<std::size_t>(knot - line.knots.begin())];
+    sum += (next - last).norm();
+    last = next;
+  }
+  return sum + (evaluate(line, to) - last).norm();
+}
+
 std::vector<double> chords_of(const Arc& arc) {
   constexpr double kMaxSagitta = 1e-7;
   constexpr double kMaxChords = 20000;
@@ -65,6 +81,10 @@ Polyline constant_speed(std::vector<Eigen::Vector3d> points) {
 
 Eigen::Vector3d point_at(const Path& path, double s) {
   return std::visit([s](const auto& curve) { return evaluate(curve, s); }, path);
+}
+
+double way(const Path& path, double from, double to) {
+  return std::visit([from, to](const auto& curve) { return way_along(curve, from, to); }, path);
 }
 
 double progress(Profile profile, double x) {

@@ -39,6 +39,9 @@ Polyline constant_speed(std::vector<Eigen::Vector3d> points);
 /// Point of the path at s in [0, 1] [m].
 Eigen::Vector3d point_at(const Path& path, double s);
 
+/// Bound of the way along the path between two parameters, from <= to [m].
+double way(const Path& path, double from, double to);
+
 /// s for the fraction x in [0, 1] of the duration; ascends from 0 to 1.
 double progress(Profile profile, double x);
 

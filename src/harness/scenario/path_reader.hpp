@@ -2,10 +2,9 @@
 /// The keys of `task`.
 #pragma once
 
-#include <filesystem>
-
 #include "harness/scenario/path.hpp"
 #include "harness/scenario/units.hpp"
+#include "harness/scenario/waypoint_file.hpp"
 #include "harness/scenario/yaml_value.hpp"
 
 namespace bqsa::harness {
@@ -20,8 +19,6 @@ struct Task {
 
 /// Reads `task: {path, timing}`.
 /// @param dimension  of the robot's task: 2 or 3
-/// @param directory  of the scenario file; a waypoint file is found from there and lies in it
-Task read_task(const YamlValue& value, const Units& units, int dimension,
-               const std::filesystem::path& directory);
+Task read_task(const YamlValue& value, const Units& units, int dimension, NamedFiles& files);
 
 }  // namespace bqsa::harness

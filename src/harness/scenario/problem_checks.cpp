@@ -10,6 +10,7 @@
 
 #include "harness/judge/exact_distance.hpp"
 #include "harness/judge/judge.hpp"
+#include "harness/judge/obstacle_track.hpp"
 
 namespace bqsa::harness {
 namespace {
@@ -95,6 +96,93 @@ double free_part(const Chord& chord, double radius, const Ellipsoid& shape) {
   return low;
 }
 
+/// The tip, as a ball of the link radius, and a moving obstacle, each where it is at the time.
+class MovingTip {
+ public:
+  /// @param looks  that may still be taken in the whole scenario
+  MovingTip(const Problem& problem, const Task& task, const Obstacle& obstacle, long& looks)
+      : radius_(problem.link_radius),
+        ticks_(problem.ticks),
+        task_(task),
+        shape_(obstacle.shape),
+        track_(obstacle, problem.ticks),
+        looks_(looks) {}
+
+  /// Looks through the motion to a tick. Where the clearance halfway through a part of it exceeds
+  /// what that part can take away, the part is free; others are halved until what can be taken away
+  /// is a small part of the touching band.
+  /// @returns a time in ticks at which the tip enters the obstacle, or `ticks` + 1 if it never does
+  double entry(int tick) const { return entry(tick, 0, 1); }
+
+  double never() const { return ticks_ + 1; }
+
+ private:
+  double parameter(const Instant& instant) const {
+    return progress(task_.profile, std::clamp((instant.tick - 1 + instant.s) / ticks_, 0.0, 1.0));
+  }
+
+  double clearance(const Instant& instant) const {
+    const ObstacleState state = track_.at(instant);
+    const Vector3d tip =
+        state.rotation.transpose() * (point_at(task_.path, parameter(instant)) - state.center);
+    const Vector3d seen = shape_.center() + shape_.rotation() * tip;
+    return exact_distance(seen, seen, shape_).clearance() - radius_;
+  }
+
+  double entry(int tick, double low, double high) const {
+    constexpr double kResolution = Judge::kTouching / 16;
+    const double middle = low + (high - low) / 2;
+    if (--looks_ < 0) return never();
+    const double now = clearance({tick, middle});
+    if (now < -Judge::kTouching) return boundary(tick, low, middle);
+    const double way_of_tip = way(task_.path, parameter({tick, low}), parameter({tick, high}));
+    const double change = way_of_tip + (high - low) / 2 * track_.travel(tick);
+    if (now > change || change <= kResolution) return never();
+    const double first = entry(tick, low, middle);
+    return first < never() ? first : entry(tick, middle, high);
+  }
+
+  /// Between an instant that is free, or is taken for the entry if it is not, and one that is not.
+  double boundary(int tick, double low, double high) const {
+    for (int i = 0; i < 40; ++i) {  // to 1e-12 of a tick
+      const double middle = (low + high) / 2;
+      (clearance({tick, middle}) < -Judge::kTouching ? high : low) = middle;
+    }
+    return tick - 1 + high;
+  }
+
+  double radius_;
+  int ticks_;
+  const Task& task_;
+  const Ellipsoid& shape_;
+  ObstacleTrack track_;
+  long& looks_;
+};
+
+/// Refuses a tip path that enters a moving obstacle, the two taken at the same time.
+void check_moving(const YamlValue& value, const Problem& problem, const Task& task) {
+  constexpr long kLooks = 1L << 23;  // seconds of work
+  long looks = kLooks;
+  for (const Obstacle& obstacle : problem.obstacles) {
+    if (!obstacle.moves()) continue;
+    const MovingTip moving_tip(problem, task, obstacle, looks);
+    for (int tick = 1; tick <= problem.ticks; ++tick) {
+      const double entry = moving_tip.entry(tick);
+      if (entry < moving_tip.never()) {
+        value.fail("a path free of obstacles",
+                   fmt::format("one that enters obstacle {} at t = {:.4g} s", obstacle.name,
+                               entry * problem.dt));
+      }
+      if (looks < 0) {
+        value.fail(
+            fmt::format("a path that {} looks show to keep out of moving obstacles", kLooks),
+            fmt::format("one that keeps too near to obstacle {} for that, until t = {:.4g} s",
+                        obstacle.name, problem.time(tick)));
+      }
+    }
+  }
+}
+
 }  // namespace
 
 void check_start(const YamlValue& value, const Problem& problem, const Units& units) {
@@ -115,7 +203,7 @@ void check_start(const YamlValue& value, const Problem& problem, const Units& un
   for (const Link& link : problem.chain.links()) {
     for (const Obstacle& obstacle : problem.obstacles) {
       const double shortfall = penetration(pose.p_WO.col(link.start), pose.p_WO.col(link.end),
-                                           problem.link_radius + problem.margin, obstacle.shape);
+                                           problem.link_radius + problem.margin, obstacle.at(0));
       if (!(shortfall > 0)) continue;
       const double clearance = problem.margin - shortfall;
       if (clearance < -Judge::kTouching) {
@@ -156,6 +244,7 @@ void check_path(const YamlValue& value, const Problem& problem, const Task& task
   }
   for (const Chord& piece : pieces) {
     for (const Obstacle& obstacle : problem.obstacles) {
+      if (obstacle.moves()) continue;
       if (!(penetration(piece.a, piece.b, problem.link_radius, obstacle.shape) > 0)) continue;
       const double s = piece.from + free_part(piece, problem.link_radius, obstacle.shape) *
                                         (piece.to - piece.from);
@@ -164,6 +253,7 @@ void check_path(const YamlValue& value, const Problem& problem, const Task& task
                              task.duration * fraction_at(task.profile, s)));
     }
   }
+  check_moving(value, problem, task);
 }
 
 }  // namespace bqsa::harness

@@ -16,6 +16,7 @@
 #include "harness/scenario/problem_checks.hpp"
 #include "harness/scenario/robot_reader.hpp"
 #include "harness/scenario/units.hpp"
+#include "harness/scenario/waypoint_file.hpp"
 #include "harness/scenario/yaml_value.hpp"
 #include "harness/text_file.hpp"
 
@@ -80,12 +81,13 @@ Scenario load_scenario(const std::filesystem::path& file) {
   const YamlValue start_value = top.get("start", "a list of joint angles");
   const JointVector start = read_start(start_value, units, robot.chain.joints());
   const YamlValue task_value = top.get("task", "a mapping of path, timing");
-  const Task task = read_task(task_value, units, dimension, file.parent_path());
+  NamedFiles files(file.parent_path());
+  const Task task = read_task(task_value, units, dimension, files);
   const std::optional<YamlValue> obstacles = top.find("obstacles");
 
   Problem problem{.name = name,
                   .chain = std::move(robot.chain),
-                  .obstacles = obstacles ? read_obstacles(*obstacles, units, dimension)
+                  .obstacles = obstacles ? read_obstacles(*obstacles, units, dimension, task, files)
                                          : std::vector<Obstacle>(),
                   .desired_tip = timed(task),
                   .ticks = task.ticks,
@@ -98,7 +100,7 @@ Scenario load_scenario(const std::filesystem::path& file) {
   check_start(start_value, problem, units);
   check_path(task_value.get("path", "a path"), problem, task,
              length_or("start_tolerance", kDefaultTolerance), units);
-  return {file, described, sha256_of(text), std::move(problem)};
+  return {file, described, sha256_of(text + files.bytes()), std::move(problem)};
 }
 
 }  // namespace bqsa::harness

@@ -14,8 +14,10 @@ namespace bqsa::harness {
 struct Scenario {
   std::filesystem::path file;
   std::string description;
-  std::string sha256;  ///< of the bytes of this file alone, as `sha256sum` prints it
-  Problem problem;     ///< its name is the scenario's
+  /// Of the bytes of this file and of the waypoint files it names, one after the other: that of the
+  /// path, then those of the obstacles in their order. As `cat FILES | sha256sum` prints it.
+  std::string sha256;
+  Problem problem;  ///< its name is the scenario's
 };
 
 /// Reads and validates one scenario file, converting to SI units.

@@ -97,6 +97,10 @@ std::string Units::show(double metres, int digits) const {
   return fmt::format("{:.{}g} {}", metres * per_metre, digits, length_name);
 }
 
+std::string Units::show_angle(double radians) const {
+  return fmt::format("{:g} {}", radians / rad_per_angle, angle_name);
+}
+
 std::string Units::show(const Eigen::Vector3d& point, int dimension) const {
   const Eigen::Vector3d p = point * per_metre;
   return dimension == 2 ? fmt::format("({:g}, {:g}) {}", p.x(), p.y(), length_name)
@@ -117,12 +121,17 @@ Eigen::Vector3d read_unit_vector(const YamlValue& value, int dimension) {
   return v / norm;
 }
 
+Eigen::Matrix3d rotation_of_rpy(double r, double p, double y) {
+  const Eigen::AngleAxisd roll(r, Eigen::Vector3d::UnitX());
+  const Eigen::AngleAxisd pitch(p, Eigen::Vector3d::UnitY());
+  const Eigen::AngleAxisd yaw(y, Eigen::Vector3d::UnitZ());
+  return yaw.toRotationMatrix() * pitch.toRotationMatrix() * roll.toRotationMatrix();
+}
+
 Eigen::Matrix3d read_rpy(const YamlValue& value, const Units& units) {
   const std::vector<YamlValue> elements = value.list("three angles [r, p, y]", 3);
-  const Eigen::AngleAxisd roll(units.angle(elements[0]), Eigen::Vector3d::UnitX());
-  const Eigen::AngleAxisd pitch(units.angle(elements[1]), Eigen::Vector3d::UnitY());
-  const Eigen::AngleAxisd yaw(units.angle(elements[2]), Eigen::Vector3d::UnitZ());
-  return yaw.toRotationMatrix() * pitch.toRotationMatrix() * roll.toRotationMatrix();
+  return rotation_of_rpy(units.angle(elements[0]), units.angle(elements[1]),
+                         units.angle(elements[2]));
 }
 
 Eigen::Matrix3d read_quaternion(const YamlValue& value) {

@@ -46,6 +46,9 @@ struct Units {
   /// For messages: metres in the file's unit, as `12.5 mm`.
   std::string show(double metres, int digits = 6) const;
 
+  /// For messages: radians in the file's unit, as `30 deg`.
+  std::string show_angle(double radians) const;
+
   /// For messages: a point in the file's unit, as `(1, 2, 3) mm`.
   std::string show(const Eigen::Vector3d& point, int dimension) const;
 };
@@ -57,7 +60,10 @@ Eigen::Vector3d read_unit_vector(const YamlValue& value, int dimension);
 /// How far from 1 the length of a unit vector or quaternion may be as written.
 inline constexpr double kUnitTolerance = 1e-4;
 
-/// Rotation given by `rpy: [r, p, y]` about the fixed axes x, y, z: Rz(y) Ry(p) Rx(r).
+/// The rotation Rz(y) Ry(p) Rx(r) about the fixed axes x, y, z [rad].
+Eigen::Matrix3d rotation_of_rpy(double r, double p, double y);
+
+/// The same given by `rpy: [r, p, y]`.
 Eigen::Matrix3d read_rpy(const YamlValue& value, const Units& units);
 
 /// Rotation given by `quaternion: [w, x, y, z]` of unit length.

@@ -84,6 +84,34 @@ inline Problem free_problem(ChainDescription chain, int ticks) {
           .tolerance = std::numeric_limits<double>::infinity()};
 }
 
+/// Gives the obstacle one more state: `way` [m] on and turned by up to `turn` [rad], about z alone
+/// in the plane.
+inline void move_obstacle(Generator& generator, bool planar, double way, double turn,
+                          Obstacle& obstacle) {
+  if (obstacle.motion.empty()) obstacle.motion.push_back(obstacle.shape);
+  const Ellipsoid last = obstacle.motion.back();
+  Eigen::Vector3d step = way * random_direction<3>(generator);
+  Eigen::Vector3d axis = random_direction<3>(generator);
+  if (planar) {
+    step.z() = 0;
+    axis = Eigen::Vector3d::UnitZ();
+  }
+  const Eigen::AngleAxisd spin(uniform(generator, -turn, turn), axis);
+  obstacle.motion.emplace_back(last.center() + step, last.semi_axes(),
+                               Eigen::Matrix3d(spin.toRotationMatrix() * last.rotation()));
+}
+
+/// The obstacle at the part s of the motion to a tick, by the slerp of unit quaternions.
+inline Ellipsoid obstacle_between(const Obstacle& obstacle, int tick, double s) {
+  if (!obstacle.moves()) return obstacle.shape;
+  const Ellipsoid& from = obstacle.at(tick - 1);
+  const Ellipsoid& to = obstacle.at(tick);
+  const Eigen::Quaterniond turn =
+      Eigen::Quaterniond(from.rotation()).slerp(s, Eigen::Quaterniond(to.rotation()));
+  return {(1 - s) * from.center() + s * to.center(), from.semi_axes(),
+          turn.normalized().toRotationMatrix()};
+}
+
 /// From the problem's start by the same joint step every tick.
 inline Trajectory steady_motion(const Problem& problem, const JointVector& step) {
   Trajectory trajectory;

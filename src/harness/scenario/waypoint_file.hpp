@@ -1,0 +1,73 @@
+/// @file
+/// The files that a scenario names: tables of what happens when.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "harness/numeric_csv.hpp"
+#include "harness/scenario/units.hpp"
+#include "harness/scenario/yaml_value.hpp"
+
+namespace bqsa::harness {
+
+/// Reads the files that a scenario names, and keeps their bytes.
+class NamedFiles {
+ public:
+  /// @param directory  of the scenario file; the others are found from there and lie in it
+  explicit NamedFiles(std::filesystem::path directory) : directory_(std::move(directory)) {}
+
+  /// What a file is called in messages, and its bytes.
+  struct File {
+    std::string name;
+    std::string text;
+  };
+
+  /// The file that a value names. Refuses one outside the directory, one of more than `max_bytes`,
+  /// and more than 64 MiB in all.
+  File read(const YamlValue& value, std::size_t max_bytes);
+
+  /// The bytes of all files so far, one after the other as they were read.
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::filesystem::path directory_;
+  std::string bytes_;
+};
+
+/// A CSV file of 2 to 100,000 waypoints, a row each: the time in seconds, ascending, then columns
+/// in the scenario's units. What is read is checked as it is read.
+class WaypointFile {
+ public:
+  /// @param value    names the file
+  /// @param headers  of which the file has one
+  WaypointFile(const YamlValue& value, NamedFiles& files, const std::vector<std::string>& headers);
+
+  std::size_t rows() const { return table_.rows(); }
+  std::size_t columns() const { return table_.columns; }
+
+  double time(std::size_t row) const;  ///< finite, and after that of the row before [s]
+
+  /// Columns 1 and on as a point of `dimension` 2 or 3 coordinates; in the plane z = 0 [m].
+  Eigen::Vector3d point(std::size_t row, int dimension, const Units& units) const;
+
+  /// Column `column`, called `name` [rad].
+  double angle(std::size_t row, std::size_t column, const std::string& name,
+               const Units& units) const;
+
+  /// Refuses what stands in a row.
+  [[noreturn]] void fail(std::size_t row, const std::string& column, const std::string& expected,
+                         const std::string& got) const;
+
+ private:
+  double finite(std::size_t row, std::size_t column, const std::string& name) const;
+
+  std::string file_;
+  NumericTable table_;
+};
+
+}  // namespace bqsa::harness
