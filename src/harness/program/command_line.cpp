@@ -16,6 +16,8 @@ namespace {
 constexpr const char* kFooter =
     "Exit status: 0 done, 1 a run failed (with --strict), 2 bad input or results not written.";
 
+constexpr int kMostGenerated = 100'000;  // the index in a name has five digits
+
 /// A word of the command line as a shell would need it.
 std::string quoted(std::string_view word) {
   constexpr std::string_view kPlain =
@@ -37,6 +39,7 @@ std::string command_line_text(int argc, const char* const* argv) {
 /// What the options are read into, and the command that was chosen.
 struct CommandLine {
   RunOptions run;
+  GenerateOptions generate;
   std::filesystem::path scenario_directory;
   std::filesystem::path results_directory;
   std::filesystem::path scenario;
@@ -101,6 +104,27 @@ void declare(CLI::App& app, CommandLine& line) {
   judge->callback([&line] {
     line.command = [&line](const Console& console) {
       return judge_command(line.scenario, line.trajectory, line.strict, console);
+    };
+  });
+
+  CLI::App* generate =
+      add_command(app, "generate", "Write random scenarios of a family (docs/generator.md)");
+  generate->add_option("--family", line.generate.family, "Family of scenarios, see list")
+      ->required();
+  generate->add_option("--count", line.generate.count, "Number of scenarios, at most 100000")
+      ->required()
+      ->check(CLI::Range(1, kMostGenerated));
+  generate->add_option("--seed", line.generate.seed, "Seed; file k is the same for every count")
+      ->required();
+  generate
+      ->add_option("--out,-o", line.generate.directory,
+                   "Directory for the files; other content in it is not overwritten")
+      ->required();
+  generate->add_option("--robots", line.generate.robots,
+                       "Directory of robot files, for families with spatial arms [./robots]");
+  generate->callback([&line] {
+    line.command = [&line](const Console& console) {
+      return generate_command(line.generate, console);
     };
   });
 

@@ -2,6 +2,7 @@
 /// The commands of the program, after the command line was understood.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <iosfwd>
 #include <string>
@@ -52,6 +53,18 @@ Status show_command(const std::filesystem::path& directory, const Console& conso
 /// Prints the judgement of one trajectory file.
 Status judge_command(const std::filesystem::path& scenario, const std::filesystem::path& trajectory,
                      bool strict, const Console& console);
+
+struct GenerateOptions {
+  std::string family;
+  int count = 0;
+  std::uint64_t seed = 0;
+  std::filesystem::path directory;          ///< for the scenario files; made if missing
+  std::filesystem::path robots = "robots";  ///< directory of robot files, for spatial arms
+};
+
+/// Writes generated scenarios `<family>_s<seed>_<index>.yaml`. A file that is there stays if it has
+/// the same bytes; with others it is not overwritten, and nothing is written after it.
+Status generate_command(const GenerateOptions& options, const Console& console);
 
 /// Says of each scenario file whether it can be used.
 Status validate_command(const std::vector<std::filesystem::path>& files, const Console& console);
