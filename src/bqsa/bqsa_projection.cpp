@@ -22,7 +22,7 @@ Eigen::Vector2d projected_link(const ChainPose& pose, const Link& link, Coordina
 
 void BqsaProjection::prepare(const Problem& problem) {
   SpatialSearch::prepare(problem);
-  shadows_.assign(problem.obstacles, counters_);
+  shadows_.assign(problem.obstacles, counters_, problem.link_radius + problem.margin);
 }
 
 /// Joints clamping: the branches are searched in step, and the first that leads out wins.
@@ -53,19 +53,15 @@ Infeasible BqsaProjection::free_link(const StepInput& input, const Link& link, S
       if (!take_increment()) return Infeasible::kNoFreeConfiguration;
       ++increments;
       if (!advance(input, link, branch)) continue;
-      for (int c = first_clamp; c < output.clamp_count; ++c) {
-        Clamp& clamp = output.clamps[static_cast<std::size_t>(c)];
-        clamp.offset = (q_ - q_start).cwiseAbs().maxCoeff();
-        clamp.increments = c == first_clamp ? increments : 0;
-      }
+      complete_clamps(first_clamp, q_start, increments, output);
       return Infeasible::kNot;
     }
   }
   return Infeasible::kNoFreeConfiguration;
 }
 
-/// One more increment of a branch, which ends where the link cannot or may not be turned further. True
-/// if the link is free there; then q_ and pose_ hold the settled configuration.
+/// One more increment of a branch, which ends where the link cannot or may not be turned further.
+/// True if the link is free there; then q_ and pose_ hold the settled configuration.
 bool BqsaProjection::advance(const StepInput& input, const Link& link, Branch& branch) {
   q_ = branch.q;
   forward();
@@ -84,9 +80,9 @@ bool BqsaProjection::advance(const StepInput& input, const Link& link, Branch& b
   return true;
 }
 
-/// Least-norm joint velocity that turns the projected link at 1 rad/s and leaves the tip in place. With
-/// w = d psi / d theta it is N w / |N w|². False if there is none: the link is seen end-on, or C has
-/// lost its rank.
+/// Least-norm joint velocity that turns the projected link at 1 rad/s and leaves the tip in place.
+/// With w = d psi / d theta it is N w / |N w|². False if there is none: the link is seen end-on, or
+/// C has lost its rank.
 bool BqsaProjection::turn_rate(const Link& link, CoordinatePlane plane, JointVector& rate) {
   const SerialChain& chain = problem_->chain;
   const Eigen::Vector2d d = projected_link(pose_, link, plane);

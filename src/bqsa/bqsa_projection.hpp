@@ -1,5 +1,6 @@
 /// @file
-/// BQSA in space as the paper does it: by projections on the coordinate planes (paper, section 4.2).
+/// BQSA in space as the paper does it: by projections on the coordinate planes (paper, section
+/// 4.2).
 #pragma once
 
 #include <optional>
@@ -9,17 +10,18 @@
 
 namespace bqsa {
 
-/// A link hits if its projections on all three coordinate planes hit the obstacle's shadows. It is then
-/// turned in one plane, in growing increments of the angle psi of its projection and to both sides, the
-/// side it came from first, until the projections of some plane are free. A projected link changes its
-/// length, so that section 3.3's circle construction does not hold; the turn is the self-motion
+/// A link hits if its projections on all three coordinate planes hit the obstacle's shadows. It is
+/// then turned in one plane, in growing increments of the angle psi of its projection and to both
+/// sides, the side it came from first, until the projections of some plane are free. A projected
+/// link changes its length, so that section 3.3's circle construction does not hold; the turn is
+/// the self-motion
 ///
 ///     C dtheta = [0; ±dTheta],   C = [J_tip; d psi / d theta],
 ///
 /// of least norm, after which the tip is put back on its path.
 ///
-/// By Lemma 1 what is free here is free in space. The converse is false: this variant moves links that
-/// are free, and fails where no posture has a free projection.
+/// By Lemma 1 what is free here is free in space. The converse is false: this variant moves links
+/// that are free, and fails where no posture has a free projection.
 class BqsaProjection final : public SpatialSearch {
  public:
   /// @param plane  in which links are turned; none: all are tried in step, and the first exit wins
@@ -31,8 +33,8 @@ class BqsaProjection final : public SpatialSearch {
   void prepare(const Problem& problem) override;
 
  private:
-  /// One branch of the search: how far the link has been turned in a plane to one side, and how it got
-  /// there.
+  /// One branch of the search: how far the link has been turned in a plane to one side, and how it
+  /// got there.
   struct Branch {
     CoordinatePlane plane = CoordinatePlane::kXy;
     double direction = 0;

@@ -22,7 +22,8 @@ Infeasible BqsaSpatial::free_link(const StepInput& input, const Link& link, Step
     if (!clamping_velocity(link, obstacle, phi)) return Infeasible::kNoFreeConfiguration;
     const JointVector colliding = q_;
     const JointVector change = settings_.increment / phi.cwiseAbs().maxCoeff() * phi;
-    // The way travelled counts, not the way from the start, so that a link that moves to and fro ends too.
+    // The way travelled counts, not the way from the start, so that a link that moves to and fro
+    // ends too.
     if (++increments * settings_.increment > settings_.search_range || !take_increment()) {
       return Infeasible::kNoFreeConfiguration;
     }
@@ -32,11 +33,7 @@ Infeasible BqsaSpatial::free_link(const StepInput& input, const Link& link, Step
     obstacle = first_hit(link, 0);
     if (obstacle < 0) settle(input, link, colliding, change);
   }
-  for (int c = first_clamp; c < output.clamp_count; ++c) {
-    Clamp& clamp = output.clamps[static_cast<std::size_t>(c)];
-    clamp.offset = (q_ - q_start).cwiseAbs().maxCoeff();
-    clamp.increments = c == first_clamp ? increments : 0;
-  }
+  complete_clamps(first_clamp, q_start, increments, output);
   return Infeasible::kNot;
 }
 

@@ -1,5 +1,6 @@
 /// @file
-/// BQSA in space, exact: the 3-D quadratic instead of three projections (beyond the paper's section 4.2).
+/// BQSA in space, exact: the 3-D quadratic instead of three projections (beyond the paper's section
+/// 4.2).
 #pragma once
 
 #include "bqsa/obstacle_field.hpp"
@@ -11,9 +12,10 @@ namespace bqsa {
 ///
 ///     phi = N J(t*)ᵀ g
 ///
-/// in increments of dTheta for the fastest joint, and the tip is put back on its path. g is the outward
-/// normal of the ellipsoid's level at the link's vertex point P(t*), J(t*) the Jacobian of that point,
-/// interpolated between the link's end-points, N the null-space projector of the tip task.
+/// in increments of dTheta for the fastest joint, and the tip is put back on its path. g is the
+/// outward normal of the ellipsoid's level at the link's vertex point P(t*), J(t*) the Jacobian of
+/// that point, interpolated between the link's end-points, N the null-space projector of the tip
+/// task.
 class BqsaSpatial final : public SpatialSearch {
  public:
   explicit BqsaSpatial(const BqsaSettings& settings = {}) : SpatialSearch(settings) {}

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "bqsa/geometry/nearest_plane.hpp"
 #include "bqsa/geometry/separation.hpp"
 
 namespace bqsa {
@@ -23,8 +24,10 @@ Eigen::Vector2d projected(const Eigen::Vector3d& p, CoordinatePlane plane) {
   return {p(first_axis(plane)), p(second_axis(plane))};
 }
 
-void ShadowField::assign(const std::vector<Obstacle>& obstacles, WorkCounters& counters) {
+void ShadowField::assign(const std::vector<Obstacle>& obstacles, WorkCounters& counters,
+                         double clearance) {
   counters_ = &counters;
+  tight_ = clearance > 0;
   tick_ = 0;
   distance_ = 0;
   shadows_.clear();
@@ -41,10 +44,21 @@ void ShadowField::assign(const std::vector<Obstacle>& obstacles, WorkCounters& c
 
 bool ShadowField::hit(const Shadows& shadows, const Eigen::Vector3d& p1,
                       const Eigen::Vector3d& p2) const {
-  for (const CoordinatePlane plane : kCoordinatePlanes) {
+  std::array<double, kCoordinatePlanes.size()> bounds;
+  for (std::size_t k = 0; k < bounds.size(); ++k) {
+    const CoordinatePlane plane = kCoordinatePlanes[k];
     ++counters_->quadratics;
-    const Ellipse& dark = shadows[static_cast<std::size_t>(plane)];
-    if (separation<2>(dark, projected(p1, plane), projected(p2, plane)) > distance_) return false;
+    bounds[k] = separation<2>(shadows[k], projected(p1, plane), projected(p2, plane));
+    if (bounds[k] > distance_) return false;
+  }
+  if (!tight_) return true;
+  for (std::size_t k = 0; k < bounds.size(); ++k) {
+    if (bounds[k] <= 0) continue;
+    const CoordinatePlane plane = kCoordinatePlanes[k];
+    ++counters_->distance_queries;
+    const NearestPlane<2> nearest =
+        nearest_plane<2>(shadows[k], projected(p1, plane), projected(p2, plane), distance_);
+    if (nearest.distance > distance_) return false;
   }
   return true;
 }

@@ -19,24 +19,29 @@ inline constexpr std::array kCoordinatePlanes = {CoordinatePlane::kXy, Coordinat
 Eigen::Vector2d projected(const Eigen::Vector3d& p, CoordinatePlane plane);
 
 /// All obstacles of a spatial problem by their shadows, with one distance that links must keep from
-/// them. A link hits an obstacle if its own shadow hits the obstacle's in all three planes. By Lemma 1
-/// every link that hits in space does so here; the converse is false, so that links can hit here that
-/// are free in space. A projection shortens all distances, so that the distance in any one plane is a
-/// lower bound of the one in space.
+/// them. A link hits an obstacle if its own shadow hits the obstacle's in all three planes. By
+/// Lemma 1 every link that hits in space does so here; the converse is false, so that links can hit
+/// here that are free in space. A projection shortens all distances, so that the distance in any
+/// one plane is a lower bound of the one in space.
 class ShadowField {
  public:
-  /// Takes the shadows of all obstacles, of moving ones at every tick, and goes to tick 0. Quadratics
-  /// are counted in `counters`, which must outlive the field. May allocate.
-  void assign(const std::vector<Obstacle>& obstacles, WorkCounters& counters);
+  /// Takes the shadows of all obstacles, of moving ones at every tick, and goes to tick 0.
+  /// Quadratics and distance queries are counted in `counters`, which must outlive the field. May
+  /// allocate.
+  ///
+  /// @param clearance  link radius and margin [m]. If there are any, shadows that the quadratics
+  ///                   cannot show to be far enough apart are asked for their tight distance
+  ///                   (nearest_plane.hpp).
+  void assign(const std::vector<Obstacle>& obstacles, WorkCounters& counters, double clearance = 0);
 
   /// From now on the obstacles are where they are at this tick. Does not allocate.
   void go_to(int tick) { tick_ = static_cast<std::size_t>(tick); }
 
-  /// From now on shadows closer than this [m], by the proven bound `separation`, count as hitting.
+  /// From now on shadows that are not proven to be further apart than this [m] count as hitting.
   void keep(double distance) { distance_ = distance; }
 
-  /// The first obstacle, counted from `from`, that the link hits; -1 if none. The planes are asked in
-  /// turn until one says free: one to three quadratics an obstacle.
+  /// The first obstacle, counted from `from`, that the link hits; -1 if none. The planes are asked
+  /// in turn until one says free: one to three quadratics an obstacle.
   int first_hit(const ChainPose& pose, const Link& link, int from = 0) const;
 
  private:
@@ -47,6 +52,7 @@ class ShadowField {
   std::vector<std::vector<Shadows>> shadows_;  ///< of every obstacle: at every tick, or one at rest
   std::size_t tick_ = 0;
   double distance_ = 0;
+  bool tight_ = false;  ///< whether `nearest_plane` is asked
   WorkCounters* counters_ = nullptr;
 };
 

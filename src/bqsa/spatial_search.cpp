@@ -77,4 +77,13 @@ void SpatialSearch::settle(const StepInput& input, const Link& link, const Joint
   forward();
 }
 
+void SpatialSearch::complete_clamps(int first, const JointVector& q_start, int increments,
+                                    StepOutput& output) {
+  for (int c = first; c < output.clamp_count; ++c) {
+    Clamp& clamp = output.clamps[static_cast<std::size_t>(c)];
+    clamp.offset = (q_ - q_start).cwiseAbs().maxCoeff();
+    clamp.increments = c == first ? increments : 0;
+  }
+}
+
 }  // namespace bqsa

@@ -18,9 +18,9 @@ inline ChainDescription seven_joint_arm() {
   return arm;
 }
 
-/// A seven-joint arm that moves its tip along a random straight line, in 150 ticks of 40 ms, with one
-/// ellipsoid put on link 3, 5 or 7 where plain tracking leads it at tick 80. The tip's path is clear and
-/// so is the start.
+/// A seven-joint arm that moves its tip along a random straight line, in 150 ticks of 40 ms, with
+/// one ellipsoid put on link 3, 5 or 7 where plain tracking leads it at tick 80. The tip's path is
+/// clear and so is the start.
 inline Problem random_arm_scene(Generator& generator) {
   Problem problem{
       .name = "random", .chain = SerialChain(seven_joint_arm()), .ticks = 150, .dt = 0.04};

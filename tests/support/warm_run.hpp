@@ -15,8 +15,8 @@ struct WarmRun {
   int no_free_motion = 0;  ///< of the infeasible ones: all retries were used up
 };
 
-/// Steps through all ticks of the problem. At an infeasible tick the arm stands still while the path
-/// goes on.
+/// Steps through all ticks of the problem. At an infeasible tick the arm stands still while the
+/// path goes on.
 inline WarmRun warm_run(ReactiveMethod& method, const Problem& problem) {
   method.prepare(problem);
   WarmRun run;

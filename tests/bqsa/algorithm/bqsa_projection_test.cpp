@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+#include <limits>
 #include <map>
 
 #include "bqsa/bqsa_methods.hpp"
@@ -139,7 +143,8 @@ TEST(BqsaProjection, KeepsLinkRadiusAndMargin) {
   EXPECT_GT(run.clamped_ticks, 20);
 }
 
-/// The upper arm (link 3) of an arm at rest points straight up, where a ball comes a little too close to it.
+/// The upper arm (link 3) of an arm at rest points straight up, where a ball comes a little too
+/// close to it.
 Problem upright_arm() {
   Problem problem{.name = "upright",
                   .chain = SerialChain(test_support::seven_joint_arm()),

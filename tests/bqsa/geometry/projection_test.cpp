@@ -1,10 +1,11 @@
-// The paper's Lemma 1 as the field of shadows applies it: what it calls free is free in space, and how
-// often it calls a free link colliding.
+// The paper's Lemma 1 as the field of shadows applies it: what it calls free is free in space, and
+// how often it calls a free link colliding.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <string>
 
 #include "bqsa/shadow_field.hpp"
@@ -29,13 +30,14 @@ using test_support::uniform;
 /// Asks the field about single segments.
 class Asked {
  public:
-  explicit Asked(const std::vector<Obstacle>& obstacles, double distance = 0) {
-    field_.assign(obstacles, counters_);
+  explicit Asked(const std::vector<Obstacle>& obstacles, double distance = 0,
+                 double clearance = 0) {
+    field_.assign(obstacles, counters_, clearance);
     field_.keep(distance);
     pose_.p_WO.resize(3, 2);
   }
-  explicit Asked(const Ellipsoid& shape, double distance = 0)
-      : Asked(std::vector<Obstacle>{{"obstacle", shape}}, distance) {}
+  explicit Asked(const Ellipsoid& shape, double distance = 0, double clearance = 0)
+      : Asked(std::vector<Obstacle>{{"obstacle", shape}}, distance, clearance) {}
 
   void go_to(int tick) { field_.go_to(tick); }
   bool hit(const Vector3d& p1, const Vector3d& p2) { return first_hit(p1, p2) >= 0; }
@@ -44,6 +46,7 @@ class Asked {
     return field_.first_hit(pose_, {1, 0, 1}, from);
   }
   std::uint64_t quadratics() const { return counters_.quadratics; }
+  std::uint64_t distance_queries() const { return counters_.distance_queries; }
 
  private:
   WorkCounters counters_;
@@ -133,17 +136,51 @@ TEST(ShadowField, CallsAFreeLinkCollidingThatPassesTheCornerOfAllShadows) {
 
 TEST(ShadowField, ADistanceToKeepIsKeptInSpace) {
   Generator generator(72);
-  int free = 0;
+  int free = 0, free_if_tight = 0;
+  std::uint64_t queries = 0;
   for (int i = 0; i < 4000; ++i) {
     const Pair<3> pair = make_pair<3>(i % 2 == 0 ? Family::kRandom : Family::kSheet, generator);
     const double distance = test_support::log_uniform(generator, 1e-4, 0.3);
-    if (Asked(pair.ellipsoid, distance).hit(pair.p1, pair.p2)) continue;
-    ++free;
+    Asked cheap(pair.ellipsoid, distance), tight(pair.ellipsoid, distance, distance);
+    const bool cheap_free = !cheap.hit(pair.p1, pair.p2);
+    const bool tight_free = !tight.hit(pair.p1, pair.p2);
+    ASSERT_TRUE(tight_free || !cheap_free) << "case " << i;
+    EXPECT_EQ(cheap.distance_queries(), 0U);
+    queries += tight.distance_queries();
+    free += cheap_free;
+    free_if_tight += tight_free;
+    if (!tight_free) continue;
     ASSERT_GT(static_cast<double>(DistanceOracle(pair.p1, pair.p2, pair.ellipsoid).distance()),
               distance - 1e-12)
         << "case " << i;
   }
   EXPECT_GT(free, 300);
+  EXPECT_GT(free_if_tight, free);
+  EXPECT_GT(queries, 300U);
+}
+
+TEST(ShadowField, WithAClearanceItHitsExactlyWhereAllShadowsAreCloser) {
+  Generator generator(76);
+  int hits = 0, free = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Pair<3> pair = make_pair<3>(Family::kRandom, generator);
+    const double distance = test_support::log_uniform(generator, 1e-2, 0.3);
+    long double furthest = 0;
+    for (int u = 0; u < 3; ++u) {
+      const int v = (u + 1) % 3;
+      Eigen::Matrix<double, 2, 3> S = Eigen::Matrix<double, 2, 3>::Zero();
+      S(0, u) = S(1, v) = 1;
+      const DistanceOracle in_plane({pair.p1(u), pair.p1(v), 0}, {pair.p2(u), pair.p2(v), 0},
+                                    embedded(shadow(pair.ellipsoid, S)));
+      furthest = std::max(furthest, in_plane.distance());
+    }
+    if (std::abs(furthest - distance) < 1e-9L) continue;
+    const bool hit = Asked(pair.ellipsoid, distance, distance).hit(pair.p1, pair.p2);
+    ASSERT_EQ(hit, furthest < distance) << "case " << i;
+    ++(hit ? hits : free);
+  }
+  EXPECT_GT(hits, 500);
+  EXPECT_GT(free, 500);
 }
 
 TEST(ShadowField, AsksThePlanesInTurnUntilOneSaysFree) {
@@ -195,8 +232,8 @@ TEST(ShadowField, FollowsMovingObstacles) {
   EXPECT_GT(free, 200);
 }
 
-/// Random links whose distance to the ellipsoid is known: they lie beyond the plane that supports it,
-/// and reach down to `gap` above the point where it does.
+/// Random links whose distance to the ellipsoid is known: they lie beyond the plane that supports
+/// it, and reach down to `gap` above the point where it does.
 struct Shape {
   double aspect;  ///< largest to smallest semi-axis; needles and sheets in turn
   bool rotated;   ///< else the axes are parallel to those of W
@@ -234,7 +271,8 @@ TEST(Conservatism, LinksOfKnownDistanceHaveIt) {
   }
 }
 
-/// Prints the share of free links that the projections call colliding, by aspect, pose and distance.
+/// Prints the share of free links that the projections call colliding, by aspect, pose and
+/// distance.
 TEST(Conservatism, ShareOfFreeLinksCalledColliding) {
   constexpr int kPairs = 20000;
   constexpr std::array kGaps = {0.001, 0.01, 0.05};  // [m]
