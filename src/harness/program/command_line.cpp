@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <functional>
+#include <limits>
 #include <ostream>
 #include <string_view>
 
@@ -17,6 +18,8 @@ constexpr const char* kFooter =
     "Exit status: 0 done, 1 a run failed (with --strict), 2 bad input or results not written.";
 
 constexpr int kMostGenerated = 100'000;  // the index in a name has five digits
+
+constexpr double kMostNoise = 1;  // [rad]
 
 /// A word of the command line as a shell would need it.
 std::string quoted(std::string_view word) {
@@ -40,6 +43,8 @@ std::string command_line_text(int argc, const char* const* argv) {
 struct CommandLine {
   RunOptions run;
   GenerateOptions generate;
+  StepOptions step;
+  ReportOptions report;
   std::filesystem::path scenario_directory;
   std::filesystem::path results_directory;
   std::filesystem::path scenario;
@@ -54,6 +59,16 @@ CLI::App* add_command(CLI::App& app, const char* name, const char* description) 
   command->set_version_flag("--version", app.version());
   command->footer(kFooter);
   return command;
+}
+
+void add_report_options(CLI::App& command, ReportOptions& report) {
+  CLI::Option* summary =
+      command.add_flag("--summary", report.summary,
+                       "Print rates, causes of failure and times by family instead of the table\n"
+                       "[from 13 scenarios on]");
+  command.add_flag("--table", report.table, "Print the table [up to 12 scenarios]")
+      ->excludes(summary);
+  command.add_flag("--failures", report.failures, "List every failed run too");
 }
 
 void declare(CLI::App& app, CommandLine& line) {
@@ -71,7 +86,9 @@ void declare(CLI::App& app, CommandLine& line) {
   });
 
   CLI::App* run = add_command(app, "run", "Run methods on scenarios, judge them, print the table");
-  run->add_option("SCENARIO", line.run.scenarios, "Scenario files")->required();
+  run->add_option("SCENARIO", line.run.scenarios,
+                  "Scenario files, or directories with files *.yaml")
+      ->required();
   run->add_option("--method,-m", line.run.methods,
                   "Method with parameters, M[:key=value,...], as bqsa:increment=1e-3; see list;\n"
                   "repeatable [all methods]")
@@ -82,16 +99,45 @@ void declare(CLI::App& app, CommandLine& line) {
       ->required();
   run->add_flag("--strict", line.run.strict, "Exit with 1 if a run is not judged a success");
   run->add_flag("--quiet,-q", line.run.quiet, "Print neither progress nor table");
+  run->add_flag("!--no-trajectories", line.run.trajectories, "Do not store the trajectories");
+  run->add_option("--joint-noise", line.run.joint_noise,
+                  "Standard deviation of normal noise on the joint angles that reactive methods\n"
+                  "are told [rad] [none]")
+      ->check(CLI::Range(0.0, kMostNoise));
+  run->add_flag("--latency", line.run.latency,
+                "Tell reactive methods the joint angles of one tick ago");
+  run->add_option("--seed", line.run.seed, "Seed of the noise and of planning methods [1]");
+  add_report_options(*run, line.run.report);
   run->callback([&line] {
     line.command = [&line](const Console& console) { return run_command(line.run, console); };
   });
 
   CLI::App* show = add_command(app, "show", "Print the table of a results directory");
   show->add_option("DIR", line.results_directory, "Results directory")->required();
+  add_report_options(*show, line.report);
   show->callback([&line] {
     line.command = [&line](const Console& console) {
-      return show_command(line.results_directory, console);
+      return show_command(line.results_directory, line.report, console);
     };
+  });
+
+  CLI::App* step =
+      add_command(app, "step", "Repeat one tick of a method: what it does, how long it takes");
+  step->add_option("SCENARIO", line.step.scenario, "Scenario file")->required();
+  step->add_option("--method,-m", line.step.method, "Method with parameters, as for run")
+      ->required();
+  CLI::Option* slowest = step->add_option(
+      "--slowest", line.step.slowest,
+      "Results directory: the slowest tick of this scenario and method, undisturbed");
+  CLI::Option* tick = step->add_option("--tick", line.step.tick, "Tick, from 1")
+                          ->check(CLI::Range(1, std::numeric_limits<int>::max()));
+  CLI::Option* state = step->add_option(
+      "--state", line.step.state,
+      "Joint angles before that tick: q1,...,qn [rad], or a trajectory file that has them");
+  tick->needs(state)->excludes(slowest);
+  state->needs(tick)->excludes(slowest);
+  step->callback([&line] {
+    line.command = [&line](const Console& console) { return step_command(line.step, console); };
   });
 
   CLI::App* judge = add_command(app, "judge", "Judge any trajectory of a scenario");

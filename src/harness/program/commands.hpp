@@ -2,6 +2,7 @@
 /// The commands of the program, after the command line was understood.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <iosfwd>
@@ -28,16 +29,31 @@ struct Console {
   void error(std::string_view message) const;
 };
 
+/// What is printed of results.
+struct ReportOptions {
+  bool summary = false;   ///< the summary, which many scenarios get anyway
+  bool table = false;     ///< the table, however many scenarios there are
+  bool failures = false;  ///< a line for each failed run too
+
+  /// More scenarios than these get the summary if nothing is asked for.
+  static constexpr std::size_t kMostInTable = 12;
+};
+
 struct RunOptions {
-  std::vector<std::filesystem::path> scenarios;
+  std::vector<std::filesystem::path> scenarios;  ///< files, and directories of files `*.yaml`
   std::vector<std::string> methods;  ///< `M[:key=value,...]`; none means all
   std::filesystem::path directory;
   bool strict = false;
   bool quiet = false;        ///< neither progress nor table
+  bool trajectories = true;  ///< stored
+  double joint_noise = 0;    ///< Disturbance::joint_noise [rad]
+  bool latency = false;      ///< of one tick
+  std::uint64_t seed = 1;
+  ReportOptions report;
   std::string command_line;  ///< as recorded
 };
 
-/// Runs all methods on all scenarios and prints the table. A scenario that is refused does not stop
+/// Runs all methods on all scenarios and prints table or summary. A scenario that is refused does not stop
 /// the others; bad methods, equal scenario names and a directory that cannot be written to do,
 /// before anything runs.
 /// @throws InputError for the latter
@@ -47,8 +63,21 @@ Status run_command(const RunOptions& options, const Console& console);
 /// ./scenarios, which may be missing.
 Status list_command(const std::filesystem::path& scenarios, const Console& console);
 
-/// Prints the table of a results directory; lines that are not records are reported and left out.
-Status show_command(const std::filesystem::path& directory, const Console& console);
+/// Prints table or summary of a results directory; lines that are not records are reported and left
+/// out.
+Status show_command(const std::filesystem::path& directory, const ReportOptions& report,
+                    const Console& console);
+
+struct StepOptions {
+  std::filesystem::path scenario;
+  std::string method;             ///< `M[:key=value,...]`
+  std::filesystem::path slowest;  ///< a results directory: its slowest tick of scenario and method
+  int tick = 0;                   ///< if that is empty
+  std::string state;  ///< if that is empty: q1,...,qn [rad] before the step, or a trajectory file
+};
+
+/// Repeats one tick of a method, freshly prepared, and prints what it did and how long it took.
+Status step_command(const StepOptions& options, const Console& console);
 
 /// Prints the judgement of one trajectory file.
 Status judge_command(const std::filesystem::path& scenario, const std::filesystem::path& trajectory,

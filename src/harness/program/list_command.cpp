@@ -1,10 +1,10 @@
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <ostream>
 
 #include "harness/methods.hpp"
 #include "harness/program/commands.hpp"
+#include "harness/program/scenario_files.hpp"
 #include "harness/scenario/scenario.hpp"
 
 namespace bqsa::harness {
@@ -43,20 +43,6 @@ void print_method(const MethodEntry& method, std::ostream& out) {
     out << fmt::format("    {:<24}{:>10} {:<8} ({}) {}\n", parameter.name, values[i].second,
                        parameter.unit, range_of(parameter), parameter.meaning);
   }
-}
-
-std::vector<std::filesystem::path> yaml_files(const std::filesystem::path& directory) {
-  std::error_code error;
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(directory, error)) {
-    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
-  }
-  if (error) {
-    throw InputError(
-        fmt::format("{}: cannot list scenarios: {}", directory.string(), error.message()));
-  }
-  std::sort(files.begin(), files.end());
-  return files;
 }
 
 }  // namespace

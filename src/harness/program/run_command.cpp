@@ -1,12 +1,17 @@
 #include <fmt/core.h>
 
+#include <chrono>
+#include <cmath>
+#include <map>
 #include <ostream>
 #include <set>
+#include <system_error>
 
 #include "harness/methods.hpp"
 #include "harness/program/commands.hpp"
+#include "harness/program/report.hpp"
+#include "harness/program/scenario_files.hpp"
 #include "harness/results/pair_run.hpp"
-#include "harness/results/table.hpp"
 
 namespace bqsa::harness {
 namespace {
@@ -26,27 +31,47 @@ std::vector<MethodSpec> chosen_methods(const std::vector<std::string>& texts) {
   return chosen;
 }
 
-/// Loads the scenarios that can be used; the others are reported and noted in `refused`.
-std::vector<Scenario> load_all(const std::vector<std::filesystem::path>& files,
-                               const Console& console, std::vector<std::string>& refused) {
-  std::vector<Scenario> scenarios;
+/// `, did you mean --method NAME?` where a scenario file that does not exist is a method's name.
+std::string hint_for(const std::filesystem::path& file) {
+  std::error_code unknown;
+  if (std::filesystem::exists(file, unknown)) return "";
+  try {
+    parse_method_spec(file.string(), methods());
+  } catch (const InputError&) {
+    return "";
+  }
+  return fmt::format("; did you mean --method {}?", file.string());
+}
+
+/// The files that can be used; the others are reported.
+std::vector<std::filesystem::path> usable(const std::vector<std::filesystem::path>& files,
+                                          const Console& console) {
+  std::vector<std::filesystem::path> good;
+  std::map<std::string, std::filesystem::path> by_name;
   for (const std::filesystem::path& file : files) {
+    std::string name;
     try {
-      scenarios.push_back(load_scenario(file));
+      name = load_scenario(file).problem.name;
     } catch (const InputError& error) {
-      console.error(error.what());
-      refused.push_back(error.what());
+      console.error(error.what() + hint_for(file));
+      continue;
     }
-  }
-  for (std::size_t i = 0; i < scenarios.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) {
-      if (scenarios[i].problem.name != scenarios[k].problem.name) continue;
+    const auto [other, first] = by_name.try_emplace(name, file);
+    if (!first) {
       throw InputError(fmt::format("{} and {} have the same scenario name '{}'; nothing was run",
-                                   scenarios[k].file.string(), scenarios[i].file.string(),
-                                   scenarios[i].problem.name));
+                                   other->second.string(), file.string(), name));
     }
+    good.push_back(file);
   }
-  return scenarios;
+  return good;
+}
+
+std::string duration_text(double seconds) {
+  constexpr double kMinute = 60;
+  constexpr double kHour = 3600;
+  if (seconds < 2 * kMinute) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 2 * kHour) return fmt::format("{:.0f} min", seconds / kMinute);
+  return fmt::format("{:.1f} h", seconds / kHour);
 }
 
 /// One line on the terminal that is written over again and again.
@@ -59,10 +84,19 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   void next(const std::string& what) {
-    overwrite(fmt::format("[{}/{}] {}", ++done_, total_, what));
+    const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+    std::string pace;
+    if (done_ > 0 && seconds > 1) {
+      const double rate = static_cast<double>(done_) / seconds;
+      pace = fmt::format(", {:.3g} runs/s, {} left", rate,
+                         duration_text(static_cast<double>(total_ - done_) / rate));
+    }
+    overwrite(fmt::format("[{}/{}] {}{}", ++done_, total_, what, pace));
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   void overwrite(const std::string& text) {
     constexpr const char* kClearLine = "\r\033[K";
     if (shown_) err_ << kClearLine << text << std::flush;
@@ -72,7 +106,19 @@ class Progress {
   bool shown_;
   std::size_t total_;
   std::size_t done_ = 0;
+  Clock::time_point start_ = Clock::now();
 };
+
+Circumstances circumstances_of(const RunOptions& options) {
+  if (!std::isfinite(options.joint_noise)) {
+    throw InputError("--joint-noise: expected a standard deviation [rad], got no finite number");
+  }
+  return {.settings = {.seed = options.seed,
+                       .disturbance = {.joint_noise = options.joint_noise,
+                                       .latency_ticks = options.latency ? 1 : 0}},
+          .command_line = options.command_line,
+          .store_trajectories = options.trajectories};
+}
 
 }  // namespace
 
@@ -83,42 +129,45 @@ void Console::error(std::string_view message) const {
 Status run_command(const RunOptions& options, const Console& console) {
   if (options.directory.empty()) throw InputError("--out: expected a directory, got nothing");
   const std::vector<MethodSpec> specs = chosen_methods(options.methods);
-  std::vector<std::string> refused;
-  const std::vector<Scenario> scenarios = load_all(options.scenarios, console, refused);
+  const Circumstances circumstances = circumstances_of(options);
+  const std::vector<std::filesystem::path> named = with_directories_opened(options.scenarios);
+  const std::vector<std::filesystem::path> files = usable(named, console);
   ResultStore store(options.directory);
-  const Circumstances circumstances{.settings = {}, .command_line = options.command_line};
 
   std::vector<TableRow> rows;
   bool lost = false;
+  const auto report = [&](const std::string& message) {
+    console.error(message);
+    lost = true;
+  };
   {
-    Progress progress(console, !options.quiet, scenarios.size() * specs.size());
-    for (const Scenario& scenario : scenarios) {
-      const Judge judge(scenario.problem);
-      for (const MethodSpec& spec : specs) {
-        progress.next(scenario.problem.name + " " + variant_name(spec));
-        try {
+    // Scenarios are loaded one at a time: thousands of them do not have to fit into memory.
+    Progress progress(console, !options.quiet, files.size() * specs.size());
+    for (const std::filesystem::path& file : files) {
+      try {
+        const Scenario scenario = load_scenario(file);
+        const Judge judge(scenario.problem);
+        for (const MethodSpec& spec : specs) {
+          progress.next(scenario.problem.name + " " + variant_name(spec));
           const StoredRun run = run_pair(scenario, judge, spec, circumstances, store);
           rows.push_back(parse_run_record(run.record));
-          if (run.trajectory_error.empty()) continue;
-          console.error(run.trajectory_error);
-          lost = true;
-        } catch (const InputError& error) {
-          console.error(error.what());
-          lost = true;
+          if (!run.trajectory_error.empty()) report(run.trajectory_error);
         }
+      } catch (const InputError& error) {
+        report(error.what());
       }
     }
   }
-  if (!options.quiet && !rows.empty()) console.out << render_table(rows) << std::flush;
+  if (!options.quiet && !rows.empty()) print_report(rows, options.report, console.out);
 
   bool failed = false;
   for (const TableRow& row : rows) failed = failed || (row.applicable && !row.success);
-  if (!refused.empty()) {
-    console.error(fmt::format("{} of {} scenarios refused, no runs of them:", refused.size(),
-                              options.scenarios.size()));
-    for (const std::string& message : refused) console.err << "  " << message << '\n';
+  const std::size_t refused = named.size() - files.size();
+  if (refused > 0) {
+    console.error(
+        fmt::format("{} of {} scenarios refused, no runs of them", refused, named.size()));
   }
-  if (lost || !refused.empty()) return kBadInput;
+  if (lost || refused > 0) return kBadInput;
   return options.strict && failed ? kRunFailed : kOk;
 }
 

@@ -3,12 +3,13 @@
 #include <ostream>
 
 #include "harness/program/commands.hpp"
+#include "harness/program/report.hpp"
 #include "harness/results/result_store.hpp"
-#include "harness/results/table.hpp"
 
 namespace bqsa::harness {
 
-Status show_command(const std::filesystem::path& directory, const Console& console) {
+Status show_command(const std::filesystem::path& directory, const ReportOptions& report,
+                    const Console& console) {
   const std::filesystem::path file = runs_file(directory);
   Status status = kOk;
   std::vector<TableRow> rows;
@@ -20,7 +21,7 @@ Status show_command(const std::filesystem::path& directory, const Console& conso
       status = kBadInput;
     }
   }
-  console.out << render_table(rows);
+  print_report(rows, report, console.out);
   return status;
 }
 

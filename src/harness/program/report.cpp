@@ -1,0 +1,18 @@
+#include "harness/program/report.hpp"
+
+#include <ostream>
+
+#include "harness/results/summary.hpp"
+#include "harness/results/table.hpp"
+
+namespace bqsa::harness {
+
+void print_report(const std::vector<TableRow>& rows, const ReportOptions& options,
+                  std::ostream& out) {
+  const bool many = count_scenarios(rows) > ReportOptions::kMostInTable;
+  out << (options.summary || (many && !options.table) ? render_summary(rows) : render_table(rows));
+  if (options.failures) out << '\n' << render_failures(rows);
+  out << std::flush;
+}
+
+}  // namespace bqsa::harness
