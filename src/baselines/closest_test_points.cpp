@@ -29,6 +29,15 @@ Eigen::Matrix3Xd on_sphere(int count) {
   return points;
 }
 
+/// The test points of a shape, in W.
+void place(const Eigen::Matrix3Xd& unit, const Ellipsoid& shape, Eigen::Matrix3Xd& surface) {
+  surface.resize(3, unit.cols());
+  for (Eigen::Index k = 0; k < unit.cols(); ++k) {
+    surface.col(k) =
+        shape.rotation() * shape.semi_axes().cwiseProduct(unit.col(k)) + shape.center();
+  }
+}
+
 }  // namespace
 
 void ClosestTestPoints::assign(const Problem& problem, int link_points, int obstacle_points,
@@ -37,13 +46,19 @@ void ClosestTestPoints::assign(const Problem& problem, int link_points, int obst
   link_points_ = link_points;
   exempt_length_ = exempt_length;
   counters_ = &counters;
-  surface_.clear();
-  const Eigen::Matrix3Xd unit =
-      problem.dimension() == 2 ? on_circle(obstacle_points) : on_sphere(obstacle_points);
-  for (const Obstacle& obstacle : problem.obstacles) {
-    const Ellipsoid& shape = obstacle.shape;
-    surface_.emplace_back((shape.rotation() * (shape.semi_axes().asDiagonal() * unit)).colwise() +
-                          shape.center());
+  tick_ = 0;
+  unit_ = problem.dimension() == 2 ? on_circle(obstacle_points) : on_sphere(obstacle_points);
+  surface_.resize(problem.obstacles.size());
+  for (std::size_t j = 0; j < surface_.size(); ++j) {
+    place(unit_, problem.obstacles[j].at(0), surface_[j]);
+  }
+}
+
+void ClosestTestPoints::go_to(int tick) {
+  tick_ = tick;
+  for (std::size_t j = 0; j < surface_.size(); ++j) {
+    const Obstacle& obstacle = problem_->obstacles[j];
+    if (obstacle.moves()) place(unit_, obstacle.at(tick), surface_[j]);
   }
 }
 
@@ -79,7 +94,7 @@ ClosestPair ClosestTestPoints::search(const ChainPose& pose, int obstacle) const
   }
   if (closest.link < 0) return closest;
 
-  const Ellipsoid& shape = problem_->obstacles[static_cast<std::size_t>(obstacle)].shape;
+  const Ellipsoid& shape = problem_->obstacles[static_cast<std::size_t>(obstacle)].at(tick_);
   const double side = shape.level(on_link) < 0 ? -1 : 1;
   closest.distance = side * std::sqrt(least);
   closest.direction = side * (on_link - on_obstacle).stableNormalized();

@@ -27,11 +27,15 @@ class ClosestTestPoints {
   /// @param obstacle_points  M
   /// @param exempt_length    test points of the last link closer than this to the tip are left out,
   ///                         for a tip that works near a surface [m]
-  /// Problem and counters must outlive this.
+  /// Problem and counters must outlive this. May allocate.
   void assign(const Problem& problem, int link_points, int obstacle_points, double exempt_length,
               WorkCounters& counters);
 
-  /// Brute force over all pairs of test points of all links with obstacle j. Does not allocate.
+  /// From now on the obstacles are where they are at this tick. Does not allocate.
+  void go_to(int tick);
+
+  /// Brute force over all pairs of test points of all links with obstacle j, at tick 0 or where `go_to`
+  /// put it. Does not allocate.
   ClosestPair search(const ChainPose& pose, int obstacle) const;
 
  private:
@@ -39,6 +43,8 @@ class ClosestTestPoints {
   int link_points_ = 0;
   double exempt_length_ = 0;
   WorkCounters* counters_ = nullptr;
+  int tick_ = 0;
+  Eigen::Matrix3Xd unit_;                  ///< test points of the unit circle or sphere
   std::vector<Eigen::Matrix3Xd> surface_;  ///< an obstacle's test points a matrix, in W [m]
 };
 

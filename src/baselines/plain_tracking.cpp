@@ -43,7 +43,11 @@ MethodEntry plain_tracking_method() {
   return {.name = "none",
           .summary = "closed-loop tracking without avoidance",
           .source = "hybrid inverse kinematics of the paper (section 2.2) with W = I, phi = 0",
-          .capabilities = {.planar = true, .spatial = true, .link_radius = true, .margin = true},
+          .capabilities = {.planar = true,
+                           .spatial = true,
+                           .link_radius = true,
+                           .margin = true,
+                           .moving = true},
           .parameters = {},
           .make = [](const ParameterValues&) { return std::make_unique<PlainTracking>(); }};
 }

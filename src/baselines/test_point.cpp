@@ -43,6 +43,7 @@ class TestPoint final : public ReactiveMethod {
   void step(const StepInput& input, StepOutput& output) override {
     output = {};
     const SerialChain& chain = problem_->chain;
+    search_.go_to(input.tick - 1);  // where the obstacles are now, as the arm is at input.q
     chain.forward(input.q, pose_);
     chain.jacobian(pose_, chain.points() - 1, J_tip_);
     ++counters_.kinematics;
@@ -151,7 +152,7 @@ MethodEntry test_point_method() {
               "Maciejewski and Klein: Obstacle Avoidance for Kinematically Redundant "
               "Manipulators in Dynamically Varying Environments, Int. J. of Robotics Research "
               "4(3), 1985",
-          .capabilities = {.planar = true, .spatial = true},
+          .capabilities = {.planar = true, .spatial = true, .moving = true},
           .parameters = parameters(),
           .make = make};
 }

@@ -100,7 +100,11 @@ MethodEntry bqsa_method() {
   return {.name = "bqsa",
           .summary = "backward quadratic search, exact variant, planar or 3-D by the problem",
           .source = kSource,
-          .capabilities = {.planar = true, .spatial = true, .link_radius = true, .margin = true},
+          .capabilities = {.planar = true,
+                           .spatial = true,
+                           .link_radius = true,
+                           .margin = true,
+                           .moving = true},
           .parameters = exact_parameters(),
           .make = make_exact};
 }
@@ -109,7 +113,7 @@ MethodEntry bqsa_paper_method() {
   return {.name = "bqsa_paper",
           .summary = "backward quadratic search as the paper steps, planar",
           .source = kSource,
-          .capabilities = {.planar = true, .link_radius = true, .margin = true},
+          .capabilities = {.planar = true, .link_radius = true, .margin = true, .moving = true},
           .parameters = paper_parameters(),
           .make = make_paper};
 }

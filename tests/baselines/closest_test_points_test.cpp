@@ -128,5 +128,45 @@ TEST(ClosestTestPoints, PointsOutwardsFromInsideToo) {
   EXPECT_GT(pair.direction.y(), 0.7);
 }
 
+TEST(ClosestTestPoints, OfAMovingObstacleAreThoseOfTheShapePutThere) {
+  Generator generator(6);
+  for (const bool planar : {true, false}) {
+    Problem problem = planar ? test_support::planar_7r() : test_support::puma560_ellipsoid();
+    Problem resting = problem;
+    ChainPose pose;
+    problem.chain.forward(problem.start, pose);
+    Obstacle& mover =
+        problem.obstacles[0];  // turns, and comes over the middle of link 2 at tick 10
+    const Link& link = problem.chain.links()[1];
+    const Eigen::Vector3d middle = 0.5 * (pose.p_WO.col(link.start) + pose.p_WO.col(link.end));
+    for (int tick = 0; tick <= 20; ++tick) {
+      const Eigen::Vector3d center =
+          mover.shape.center() + 0.1 * tick * (middle - mover.shape.center());
+      const Eigen::AngleAxisd turn(0.2 * tick, Eigen::Vector3d::UnitZ());
+      mover.motion.emplace_back(center, mover.shape.semi_axes(), turn.toRotationMatrix());
+    }
+    WorkCounters counters;
+    ClosestTestPoints moving;
+    moving.assign(problem, 11, 60, 0, counters);
+    int inside = 0, outside = 0;
+    for (const int tick : {0, 20, 7, 10, 3, 9, 11, 5}) {
+      resting.obstacles[0].shape = mover.at(tick);
+      ClosestTestPoints there;
+      there.assign(resting, 11, 60, 0, counters);
+      moving.go_to(tick);
+      for (int j = 0; j < static_cast<int>(problem.obstacles.size()); ++j) {
+        const ClosestPair found = moving.search(pose, j), expected = there.search(pose, j);
+        EXPECT_EQ(found.link, expected.link) << "tick " << tick;
+        EXPECT_EQ(found.s, expected.s) << "tick " << tick;
+        EXPECT_EQ(found.distance, expected.distance) << "tick " << tick;
+        EXPECT_EQ(found.direction, expected.direction) << "tick " << tick;
+        if (j == 0) ++(found.distance < 0 ? inside : outside);
+      }
+    }
+    EXPECT_GT(inside, 0);
+    EXPECT_GT(outside, 0);
+  }
+}
+
 }  // namespace
 }  // namespace bqsa::baselines

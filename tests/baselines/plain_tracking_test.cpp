@@ -46,5 +46,17 @@ TEST(PlainTracking, LeadsThePumaForearmIntoBothObstacles) {
   }
 }
 
+TEST(PlainTracking, NeverLooksAtMovingObstaclesEither) {
+  const Problem resting = test_support::planar_7r(100);
+  Problem moving = resting;
+  for (int tick = 0; tick <= moving.ticks; ++tick) {
+    const Ellipsoid& shape = resting.obstacles[0].shape;
+    moving.obstacles[0].motion.emplace_back(shape.center() + tick * Eigen::Vector3d(0.01, 0.02, 0),
+                                            shape.semi_axes());
+  }
+  EXPECT_EQ(why_not_applicable(plain_tracking_method().capabilities, moving), "");
+  EXPECT_EQ(run_on(moving).q, run_on(resting).q);
+}
+
 }  // namespace
 }  // namespace bqsa::baselines

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/allocation_guard.hpp"
 #include "support/paper_problems.hpp"
 #include "support/replay.hpp"
 
@@ -90,6 +91,72 @@ TEST(TestPoint, BothLawsPushTheLinkAwayAndLeaveTheTipToFirstOrder) {
     EXPECT_GT(moved, 1e-4) << law;
     EXPECT_LT((pose.tip() - tip).norm(), 3 * moved * moved) << law;
   }
+}
+
+TEST(TestPoint, AMotionOfEqualShapesIsRest) {
+  const Problem resting = planar_7r(200);
+  Problem moving = resting;
+  for (Obstacle& obstacle : moving.obstacles) {
+    obstacle.motion.assign(static_cast<std::size_t>(moving.ticks) + 1, obstacle.shape);
+  }
+  const auto method = test_point();
+  const Replay expected = run_on(resting, *method);
+  const Replay found = run_on(moving, *method);
+  EXPECT_EQ(found.q, expected.q);
+  EXPECT_GT(found.clamped_ticks, 10);
+}
+
+/// planar_7r with its second obstacle coming closer.
+Problem approached_arm() {
+  Problem problem = planar_7r(400);
+  const Ellipsoid shape = problem.obstacles[1].shape;
+  for (int tick = 0; tick <= problem.ticks; ++tick) {
+    problem.obstacles[1].motion.emplace_back(
+        shape.center() + tick * Eigen::Vector3d(-1e-4, -5e-5, 0), shape.semi_axes(),
+        Eigen::AngleAxisd(tick * 1e-3, Eigen::Vector3d::UnitZ()).toRotationMatrix());
+  }
+  return problem;
+}
+
+TEST(TestPoint, MeetsAMovingObstacleWhereItIsAtTheStartOfTheStep) {
+  const Problem moving = approached_arm();
+  Problem resting = moving;
+  resting.obstacles[1].motion.clear();
+  const auto method_moving = test_point(), method_resting = test_point();
+  method_moving->prepare(moving);
+  StepInput input{.q = moving.start};
+  StepOutput found, expected;
+  int pushed = 0;
+  for (input.tick = 1; input.tick <= moving.ticks; ++input.tick) {
+    input.t = moving.time(input.tick);
+    input.p_WT_desired = moving.desired_tip(input.t);
+    resting.obstacles[1].shape = moving.obstacles[1].at(input.tick - 1);
+    method_resting->prepare(resting);
+    static_cast<ReactiveMethod&>(*method_moving).step(input, found);
+    static_cast<ReactiveMethod&>(*method_resting).step(input, expected);
+    ASSERT_EQ(found.q, expected.q) << "tick " << input.tick;
+    ASSERT_EQ(found.state, TickState::kUnclaimed) << "tick " << input.tick;
+    input.q = found.q;
+    pushed += found.clamp_count > 0;
+  }
+  EXPECT_GT(pushed, 10);
+}
+
+TEST(TestPoint, WarmStepsDoNotAllocateWhileAnObstacleMoves) {
+  const Problem problem = approached_arm();
+  const auto method = test_point();
+  method->prepare(problem);
+  StepInput input{.q = problem.start};
+  StepOutput output;
+  const test_support::AllocationGuard guard;
+  for (input.tick = 1; input.tick <= problem.ticks; ++input.tick) {
+    input.t = problem.time(input.tick);
+    input.p_WT_desired = problem.desired_tip(input.t);
+    static_cast<ReactiveMethod&>(*method).step(input, output);
+    input.q = output.q;
+  }
+  EXPECT_EQ(guard.allocations(), 0U);
+  EXPECT_EQ(output.state, TickState::kUnclaimed);
 }
 
 TEST(TestPoint, RefusesAnInfluenceBelowTheFullDistance) {

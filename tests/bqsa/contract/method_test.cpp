@@ -48,6 +48,27 @@ TEST(Applicability, AsksForLinkRadiusAndMarginOnlyWhereTheyAreUsed) {
   EXPECT_EQ(why_not_applicable({.planar = true, .link_radius = true, .margin = true}, problem), "");
 }
 
+TEST(Applicability, AsksForMotionOnlyWhereAnObstacleMoves) {
+  const Capabilities still{.planar = true}, moving{.planar = true, .moving = true};
+  Problem problem = planar_problem();
+  const Ellipsoid shape({2, 0, 0}, {0.1, 0.1, 0.1});
+  problem.obstacles = {{"still", shape}, {"other", shape}};
+  EXPECT_EQ(why_not_applicable(still, problem), "");
+  problem.obstacles[1].motion.assign(11, shape);
+  EXPECT_EQ(why_not_applicable(still, problem), "moving obstacles not supported yet");
+  EXPECT_EQ(why_not_applicable(moving, problem), "");
+}
+
+TEST(ProblemObstacles, AreWhereTheirMotionSays) {
+  const Ellipsoid here({2, 0, 0}, {0.1, 0.1, 0.1}), there({3, 0, 0}, {0.1, 0.1, 0.1});
+  const Obstacle still{"still", here}, mover{"mover", here, {here, there}};
+  EXPECT_FALSE(still.moves());
+  EXPECT_TRUE(mover.moves());
+  EXPECT_EQ(still.at(7).center().x(), 2);
+  EXPECT_EQ(mover.at(0).center().x(), 2);
+  EXPECT_EQ(mover.at(1).center().x(), 3);
+}
+
 TEST(ProblemTiming, CountsTicksOfTheControlPeriod) {
   const Problem problem = planar_problem();
   EXPECT_DOUBLE_EQ(problem.duration(), 1);
