@@ -3,6 +3,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <filesystem>
+#include <vector>
 
 #include "bqsa/problem.hpp"
 
@@ -22,5 +24,10 @@ struct Arm {
 Arm planar_arm(int links);
 
 inline constexpr double kPlanarReach = 2.8;  ///< as the arm of scenarios/planar_7r.yaml [m]
+
+/// The arms of spatial families, in turn: KUKA LBR iiwa 14 and Franka Panda.
+/// @param robots  directory that holds kuka_lbr_iiwa14.yaml and franka_panda.yaml
+/// @throws InputError if one of the files cannot be used
+std::vector<Arm> spatial_arms(const std::filesystem::path& robots);
 
 }  // namespace bqsa::harness

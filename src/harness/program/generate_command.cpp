@@ -44,6 +44,7 @@ std::string counted(const Rejections& rejections, std::initializer_list<Filter> 
 
 Status generate_command(const GenerateOptions& options, const Console& console) {
   const Family& family = family_of(options.family);
+  const std::vector<Arm> arms = family.spatial ? spatial_arms(options.robots) : std::vector<Arm>();
   std::error_code error;
   fs::create_directories(options.directory, error);
   if (!fs::is_directory(options.directory)) {
@@ -54,7 +55,7 @@ Status generate_command(const GenerateOptions& options, const Console& console) 
   Rejections rejections;
   int there = 0;
   for (int index = 0; index < options.count; ++index) {
-    const GeneratedScenario scenario = generate(family, options.seed, index, {}, rejections);
+    const GeneratedScenario scenario = generate(family, options.seed, index, arms, rejections);
     const fs::path file = options.directory / (scenario.name + ".yaml");
     if (is_there(file, scenario.yaml)) {
       ++there;
