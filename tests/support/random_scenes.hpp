@@ -54,4 +54,29 @@ inline Problem random_arm_scene(Generator& generator) {
   }
 }
 
+/// A random arm scene with three more ellipsoids on and beside links 3, 5 and 7. The start is
+/// clear.
+inline Problem crowded_arm_scene(Generator& generator) {
+  for (;;) {
+    Problem problem = random_arm_scene(generator);
+    Problem without = problem;
+    without.obstacles.clear();
+    BqsaSpatial tracking;
+    const Replay nominal = replay(tracking, without);
+    ChainPose pose;
+    for (const int link : {3, 5, 7}) {
+      const auto tick = static_cast<std::size_t>(uniform(generator, 60, 100));
+      problem.chain.forward(nominal.q[tick], pose);
+      const Eigen::Vector3d center =
+          pose.p_WO.col(link - 1) +
+          uniform(generator, 0.2, 0.8) * (pose.p_WO.col(link) - pose.p_WO.col(link - 1)) +
+          random_vector<3>(generator, 0.06);
+      const Eigen::Vector3d semi_axes = random_vector<3>(generator, 0.02).array() + 0.04;
+      const Ellipsoid shape(center, semi_axes, random_rotation<3>(generator));
+      problem.obstacles.push_back({"one more", shape});
+    }
+    if (sampled_hits(problem, {problem.start}, 0).empty()) return problem;
+  }
+}
+
 }  // namespace bqsa::test_support

@@ -125,6 +125,42 @@ TEST(BqsaProjection, AutoTakesThePlaneWithTheSmallestExit) {
   EXPECT_GT(taken[CoordinatePlane::kZx], 0);
 }
 
+/// Single ticks that lead the forearm onto a bead, in both senses of turn. Past the bead lies an exit
+/// that is just as near, but no free motion leads there.
+TEST(BqsaProjection, TurnsALinkBackToTheSideItCameFrom) {
+  Problem problem = puma560_ellipsoid();
+  Problem without = problem;
+  without.obstacles.clear();
+  BqsaSettings settings;
+  settings.retries = 0;
+  BqsaProjection method(CoordinatePlane::kZx, settings);
+  const std::vector<JointVector> nominal = replay(method, without).q;
+  std::map<bool, int> ticks;  // by the sense in which the forearm turned
+  for (int tick = 20; tick <= 340; tick += 10) {
+    const auto link_at = [&](int k) {
+      ChainPose pose;
+      problem.chain.forward(nominal[static_cast<std::size_t>(k)], pose);
+      return pose;
+    };
+    const ChainPose before = link_at(tick - 1), after = link_at(tick);
+    const Eigen::Vector3d was = before.p_WO.col(4) - before.p_WO.col(3);
+    const Eigen::Vector3d is = after.p_WO.col(4) - after.p_WO.col(3);
+    const double turn = was.cross(is).y() / was.squaredNorm();
+    if (std::abs(turn) < 1e-3) continue;
+    problem.obstacles = {{"bead", Ellipsoid(after.p_WO.col(4) - 0.1 * is, {1e-4, 1e-4, 1e-4})}};
+    method.prepare(problem);
+    StepOutput output;
+    method.step({tick, problem.time(tick), problem.desired_tip(problem.time(tick)),
+                 nominal[static_cast<std::size_t>(tick - 1)]},
+                output);
+    EXPECT_EQ(output.state, TickState::kClamped)
+        << "tick " << tick << ": " << name_of(output.reason);
+    ++ticks[turn > 0];
+  }
+  EXPECT_GT(ticks[false], 5);
+  EXPECT_GT(ticks[true], 5);
+}
+
 TEST(BqsaProjection, MovesLinksThatAreFreeInSpace) {
   const Problem problem = puma560_ellipsoid();
   BqsaSpatial exact;
@@ -143,14 +179,15 @@ TEST(BqsaProjection, KeepsLinkRadiusAndMargin) {
   EXPECT_GT(run.clamped_ticks, 20);
 }
 
-/// The upper arm (link 3) of an arm at rest points straight up, where a ball comes a little too
-/// close to it.
+/// The upper arm (link 3) of an arm at rest points all but straight up, where a ball comes a little
+/// too close to it.
 Problem upright_arm() {
   Problem problem{.name = "upright",
                   .chain = SerialChain(test_support::seven_joint_arm()),
                   .ticks = 1,
                   .dt = 1};
   problem.start = JointVector::Zero(7);
+  problem.start(1) = 1e-8;
   problem.start(3) = 90 * kDegree;
   problem.start(5) = 30 * kDegree;
   ChainPose pose;
@@ -325,6 +362,32 @@ TEST(BqsaProjection, OnRandomScenesEveryClaimOfFreedomIsTrue) {
     EXPECT_GE(one_plane.solved, 20);
     EXPECT_LT(one_plane.solved, automatic.solved);
   }
+}
+
+/// Freeing one link must not leave another too close, however many obstacles there are.
+TEST(BqsaProjection, LeavesEveryLinkAtTheSafetyOffset) {
+  test_support::Generator generator(11);
+  int rows = 0, clamped = 0;
+  for (int scene = 0; scene < 40; ++scene) {
+    const Problem problem = test_support::crowded_arm_scene(generator);
+    WorkCounters counters;
+    ShadowField shadows;
+    shadows.assign(problem.obstacles, counters);
+    shadows.keep(BqsaSettings{}.safety_offset);
+    BqsaProjection method;
+    const Replay run = replay(method, problem);
+    ChainPose pose;
+    for (std::size_t tick = 1; tick < run.q.size(); ++tick, ++rows) {
+      problem.chain.forward(run.q[tick], pose);
+      for (const Link& link : problem.chain.links()) {
+        EXPECT_EQ(shadows.first_hit(pose, link), -1) << "scene " << scene << " tick " << tick;
+      }
+    }
+    EXPECT_THAT(sampled_hits(problem, run.q, 4), IsEmpty()) << "scene " << scene;
+    clamped += run.clamped_ticks;
+  }
+  EXPECT_GT(rows, 1000);
+  EXPECT_GT(clamped, 300);
 }
 
 TEST(BqsaProjection, ThePlaneIsAParameterOfTheMethod) {
