@@ -76,7 +76,8 @@ void declare(CLI::App& app, CommandLine& line) {
   app.footer(kFooter);
   app.require_subcommand(1);
 
-  CLI::App* list = add_command(app, "list", "List methods with their parameters, and scenarios");
+  CLI::App* list =
+      add_command(app, "list", "List methods with their parameters, families, scenarios");
   list->add_option("--scenarios", line.scenario_directory,
                    "Directory of scenario files [./scenarios]");
   list->callback([&line] {
@@ -106,7 +107,8 @@ void declare(CLI::App& app, CommandLine& line) {
       ->check(CLI::Range(0.0, kMostNoise));
   run->add_flag("--latency", line.run.latency,
                 "Tell reactive methods the joint angles of one tick ago");
-  run->add_option("--seed", line.run.seed, "Seed of the noise and of planning methods [1]");
+  run->add_option("--seed", line.run.seed, "Seed of the noise and of planning methods [1]")
+      ->check(CLI::NonNegativeNumber);
   add_report_options(*run, line.run.report);
   run->callback([&line] {
     line.command = [&line](const Console& console) { return run_command(line.run, console); };

@@ -41,7 +41,7 @@ struct ReportOptions {
 
 struct RunOptions {
   std::vector<std::filesystem::path> scenarios;  ///< files, and directories of files `*.yaml`
-  std::vector<std::string> methods;  ///< `M[:key=value,...]`; none means all
+  std::vector<std::string> methods;              ///< `M[:key=value,...]`; none means all
   std::filesystem::path directory;
   bool strict = false;
   bool quiet = false;        ///< neither progress nor table
@@ -59,7 +59,7 @@ struct RunOptions {
 /// @throws InputError for the latter
 Status run_command(const RunOptions& options, const Console& console);
 
-/// Prints the methods and the scenarios `*.yaml` of a directory. An empty directory name stands for
+/// Prints the methods, the families and the scenarios `*.yaml` of a directory. An empty directory name stands for
 /// ./scenarios, which may be missing.
 Status list_command(const std::filesystem::path& scenarios, const Console& console);
 

@@ -132,41 +132,50 @@ Status run_command(const RunOptions& options, const Console& console) {
   const Circumstances circumstances = circumstances_of(options);
   const std::vector<std::filesystem::path> named = with_directories_opened(options.scenarios);
   const std::vector<std::filesystem::path> files = usable(named, console);
+  const std::size_t refused = named.size() - files.size();
+  const auto count_refused = [&] {
+    if (refused == 0) return;
+    console.error(
+        fmt::format("{} of {} scenarios refused, no runs of them", refused, named.size()));
+  };
+  if (files.empty()) {
+    count_refused();
+    return kBadInput;
+  }
   ResultStore store(options.directory);
 
   std::vector<TableRow> rows;
   bool lost = false;
-  const auto report = [&](const std::string& message) {
-    console.error(message);
-    lost = true;
+  const auto reporting = [&](const auto& work) {
+    try {
+      work();
+    } catch (const InputError& error) {
+      console.error(error.what());
+      lost = true;
+    }
   };
   {
     // Scenarios are loaded one at a time: thousands of them do not have to fit into memory.
     Progress progress(console, !options.quiet, files.size() * specs.size());
+    const auto run_one = [&](const Scenario& scenario, const Judge& judge, const MethodSpec& spec) {
+      progress.next(scenario.problem.name + " " + variant_name(spec));
+      const StoredRun run = run_pair(scenario, judge, spec, circumstances, store);
+      rows.push_back(parse_run_record(run.record));
+      if (!run.trajectory_error.empty()) throw InputError(run.trajectory_error);
+    };
     for (const std::filesystem::path& file : files) {
-      try {
+      reporting([&] {
         const Scenario scenario = load_scenario(file);
         const Judge judge(scenario.problem);
-        for (const MethodSpec& spec : specs) {
-          progress.next(scenario.problem.name + " " + variant_name(spec));
-          const StoredRun run = run_pair(scenario, judge, spec, circumstances, store);
-          rows.push_back(parse_run_record(run.record));
-          if (!run.trajectory_error.empty()) report(run.trajectory_error);
-        }
-      } catch (const InputError& error) {
-        report(error.what());
-      }
+        for (const MethodSpec& spec : specs) reporting([&] { run_one(scenario, judge, spec); });
+      });
     }
   }
   if (!options.quiet && !rows.empty()) print_report(rows, options.report, console.out);
 
   bool failed = false;
   for (const TableRow& row : rows) failed = failed || (row.applicable && !row.success);
-  const std::size_t refused = named.size() - files.size();
-  if (refused > 0) {
-    console.error(
-        fmt::format("{} of {} scenarios refused, no runs of them", refused, named.size()));
-  }
+  count_refused();
   if (lost || refused > 0) return kBadInput;
   return options.strict && failed ? kRunFailed : kOk;
 }

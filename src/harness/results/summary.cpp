@@ -27,7 +27,7 @@ constexpr const char* kOther = "other";
 
 constexpr std::string_view kSummaryLegend =
     R"(success     runs judged a success of all runs of a method that applies; 95 %: Wilson's interval
-claim wrong runs in which the method claims success and the judge finds a failure, or the other way round
+claim       wrong: runs in which the method claims success and the judge finds a failure, or the other way round
 failures    each failed run once: by the judge's most telling verdict, or, if the method only gave up, by its reason
 successes   the largest tip error, step and number of increments and the smallest clearance of all successes
 increments  clamping increments of a tick, over all ticks of all successes in which a link was cleared

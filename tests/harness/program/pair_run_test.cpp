@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+
+#include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -62,15 +65,19 @@ std::set<std::string> documented_keys() {
   all.merge(with_prefix("judged.contacts[].", "link obstacle first_tick at_tick ticks"));
   all.merge(with_prefix("judged.tip_error_at_ticks.", error));
   all.merge(with_prefix("judged.tip_error_between_ticks.", error));
-  all.merge(
-      with_prefix("ticks.", "free clamped unclaimed increments_total increments_max guard_fired"));
+  all.merge(with_prefix("ticks.",
+                        "free clamped unclaimed increments_total increments_max "
+                        "increments_tick_mean increments_tick_median increments_tick_p99 "
+                        "increments_tick_max increments_tick_histogram[][] guard_fired"));
+  all.merge(with_prefix("disturbance.", "joint_noise_rad latency_ticks"));
   all.merge(with_prefix("ticks.clamped_pairs[].", "link obstacle ticks"));
   all.merge(with_prefix("counters.",
                         "quadratics point_pairs distance_queries kinematics jacobians "
                         "linear_solves iterations"));
   all.merge(with_prefix("times.",
                         "valid publishable against[] construct_s prepare_s plan_s first_step_s "
-                        "warm_steps warm_median_s warm_p99_s warm_max_s warm_max_tick"));
+                        "warm_steps warm_median_s warm_p99_s warm_p999_s warm_max_s warm_max_tick "
+                        "warm_max_q_rad[] warm_histogram[][] run_s"));
   all.merge(with_prefix("provenance.",
                         "version commit dirty compiler build_type flags assertions sanitizers "
                         "libraries processor cores governor load_average os date seed "
@@ -271,9 +278,147 @@ TEST_F(PairRun, ARecordThatContradictsItselfAboutSuccessIsRefused) {
   record["judged"]["failures"] = Json::array();
   EXPECT_EQ(refusal_of(record), "not a run record: judged.contacts: contradict judged.success");
   record["judged"]["contacts"] = Json::array();
+  record["claimed"]["status"] = "success";
   EXPECT_EQ(refusal_of(record), "");
   record["judged"]["success"] = false;
   EXPECT_EQ(refusal_of(record), "not a run record: judged.success: contradicts judged.failures");
+}
+
+TEST_F(PairRun, ARecordThatContradictsItselfAboutTheClaimIsRefused) {
+  const char* contradiction =
+      "not a run record: claim_holds: contradicts claimed.status and judged.success";
+  Json lie = run(scripted("lying", stand_still));
+  EXPECT_EQ(refusal_of(lie), "");
+  lie["claim_holds"] = true;
+  EXPECT_EQ(refusal_of(lie), contradiction);
+  Json honest = run(scripted("sweep", sweep_and_give_up));
+  EXPECT_EQ(refusal_of(honest), "");
+  honest["claim_holds"] = false;
+  EXPECT_EQ(refusal_of(honest), contradiction);
+  honest["claim_holds"] = true;
+  honest["claimed"]["status"] = "success";
+  EXPECT_EQ(refusal_of(honest), contradiction);
+  honest["claimed"]["status"] = "mostly";
+  EXPECT_EQ(refusal_of(honest), "not a run record: claimed.status: expected a claim, got mostly");
+}
+
+TEST_F(PairRun, ADisturbedRunIsAVariantOfItsOwn) {
+  ResultStore store(directory_.path());
+  const MethodSpec spec = scripted("lying", stand_still);
+  const Circumstances noisy{.settings = {.seed = 7, .disturbance = {.joint_noise = 1e-3}},
+                            .command_line = "test"};
+  const Json record = Json::parse(run_pair(scenario_, judge_, spec, noisy, store).record);
+  EXPECT_EQ(record["method"]["variant"], "lying+noise=0.001+seed=7");
+  EXPECT_EQ(record["trajectory"], "trajectories/planar_7r/lying+noise=0.001+seed=7.csv");
+  EXPECT_EQ(record["disturbance"]["joint_noise_rad"], 1e-3);
+  EXPECT_EQ(record["disturbance"]["latency_ticks"], 0);
+  EXPECT_EQ(record["provenance"]["seed"], 7);
+  const TableRow row = parse_run_record(record.dump());
+  EXPECT_EQ(row.disturbance, "joint angles read with normal noise of 0.001 rad, seed 7");
+  EXPECT_FALSE(row.claim_holds) << "a claim is a claim, whatever the method was told";
+
+  const Circumstances late{.settings = {.disturbance = {.latency_ticks = 1}},
+                           .command_line = "test"};
+  const TableRow late_row = parse_run_record(run_pair(scenario_, judge_, spec, late, store).record);
+  EXPECT_EQ(late_row.variant, "lying+latency");
+  EXPECT_EQ(late_row.disturbance, "joint angles read 1 tick late");
+  const TableRow plain = parse_run_record(run_pair(scenario_, judge_, spec, {}, store).record);
+  EXPECT_EQ(plain.disturbance, "");
+  EXPECT_EQ(last_runs({row, late_row, plain}).size(), 3u);
+}
+
+TEST_F(PairRun, APlannerIsNotRunWithDisturbances) {
+  ResultStore store(directory_.path());
+  const Circumstances late{.settings = {.disturbance = {.latency_ticks = 1}},
+                           .command_line = "test"};
+  const MethodSpec planner = planned("planner", {.solved = true, .trajectory = {}});
+  const Json record = Json::parse(run_pair(scenario_, judge_, planner, late, store).record);
+  EXPECT_EQ(record["claimed"]["status"], "not applicable");
+  EXPECT_THAT(record["claimed"]["message"].get<std::string>(), ::testing::HasSubstr("plans"));
+  EXPECT_EQ(run(planner)["claimed"]["status"], "success");
+}
+
+TEST_F(PairRun, WithoutTrajectoriesOlderOnesStay) {
+  run(scripted("still", stand_still));
+  const std::filesystem::path file = directory_.path() / "trajectories/planar_7r/still.csv";
+  const auto written = std::filesystem::last_write_time(file);
+  ResultStore store(directory_.path());
+  const Circumstances bare{.settings = {}, .command_line = "test", .store_trajectories = false};
+  for (const char* name : {"still", "other"}) {
+    const StoredRun stored = run_pair(scenario_, judge_, scripted(name, stand_still), bare, store);
+    EXPECT_TRUE(Json::parse(stored.record)["trajectory"].is_null());
+    EXPECT_EQ(stored.trajectory_error, "");
+  }
+  EXPECT_EQ(std::filesystem::last_write_time(file), written);
+  EXPECT_FALSE(std::filesystem::exists(file.parent_path() / "other.csv"));
+}
+
+TEST_F(PairRun, ATrajectoryIsNotReplacedWhenItsRecordCannotBeWritten) {
+  const auto sweep_for = [](int ticks) {
+    return scripted("sweep", [ticks](const StepInput& input, StepOutput& output) {
+      stand_still(input, output);
+      if (input.tick > ticks) output.state = TickState::kInfeasible;
+    });
+  };
+  run(sweep_for(5));
+  const std::filesystem::path file = directory_.path() / "trajectories/planar_7r/sweep.csv";
+  ASSERT_EQ(read_trajectory(file, 7).q.size(), 6u);
+  ResultStore store(directory_.path());
+
+  // Files may not grow beyond what the records have already: the short trajectory still fits.
+  rlimit unlimited{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &unlimited), 0);
+  const auto size = std::filesystem::file_size(runs_file(directory_.path()));
+  ASSERT_LT(2 * std::filesystem::file_size(file), size);
+  const rlimit limited{size, unlimited.rlim_max};
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &limited), 0);
+  EXPECT_THROW(run_pair(scenario_, judge_, sweep_for(2), {}, store), InputError);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &unlimited), 0);
+  std::signal(SIGXFSZ, old_handler);
+
+  EXPECT_EQ(read_lines(runs_file(directory_.path())).size(), 1u);
+  EXPECT_EQ(read_trajectory(file, 7).q.size(), 6u) << "replaced without a record";
+}
+
+TEST_F(PairRun, ARecordTellsTheSlowestTickAndTheFailure) {
+  const Json record = run(scripted("sweep", sweep_and_give_up));
+  const TableRow row = parse_run_record(record.dump());
+  EXPECT_EQ(row.slowest_tick, record["times"]["warm_max_tick"].get<int>());
+  EXPECT_EQ(row.slowest_q, record["times"]["warm_max_q_rad"].get<std::vector<double>>());
+  EXPECT_EQ(row.slowest_q.size(), 7u);
+  EXPECT_GT(row.slowest_s, 0);
+  EXPECT_EQ(row.step_times.total(), 0) << "times of a failure";
+  const Json contact = record["judged"]["contacts"][0];
+  EXPECT_EQ(row.failure_tick, contact["first_tick"].get<int>());
+  EXPECT_EQ(row.failure_link, contact["link"].get<int>());
+  EXPECT_EQ(row.failure_obstacle, contact["obstacle"].get<std::string>());
+  EXPECT_EQ(row.claim_class, "");
+  Json analysed = record;
+  analysed["claimed"]["class"] = "no_room";
+  EXPECT_EQ(parse_run_record(analysed.dump()).claim_class, "no_room");
+}
+
+TEST_F(PairRun, ASuccessHasHistogramsOfItsTicks) {
+  const TableRow row = parse_run_record(run(with_defaults(methods().at(1))).dump());
+  ASSERT_TRUE(row.success);
+  EXPECT_EQ(row.step_times.total(), scenario_.problem.ticks - 1);
+  const double median = row.step_times.quantile(0.5) * RunTimes::kHistogramUnit;
+  EXPECT_NEAR(median / row.step_median_s, 1, 0.023);
+  EXPECT_GT(row.increments.total(), 0);
+  EXPECT_GT(row.increments_max, 0);
+}
+
+TEST(RunRecord, OldRecordsCanStillBeRead) {
+  int read = 0;
+  for (const StoredLine& line :
+       read_lines(BQSA_SOURCE_DIR "/tests/harness/program/old_runs.jsonl")) {
+    const TableRow row = parse_run_record(line.text);
+    EXPECT_EQ(row.disturbance, "");
+    EXPECT_TRUE(row.slowest_q.empty());
+    ++read;
+  }
+  EXPECT_EQ(read, 2);
 }
 
 TEST_F(PairRun, ARecordIsRefusedWithTheKeyThatIsWrong) {

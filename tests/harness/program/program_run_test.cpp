@@ -109,7 +109,7 @@ TEST_F(ProgramRun, ARefusedScenarioDoesNotStopTheOthers) {
   EXPECT_THAT(result.err, HasSubstr("1 of 2 scenarios refused"));
   const std::size_t first = result.err.find("broken.yaml");
   ASSERT_NE(first, std::string::npos);
-  EXPECT_NE(result.err.find("broken.yaml", first + 1), std::string::npos) << "no summary";
+  EXPECT_EQ(result.err.find("broken.yaml", first + 1), std::string::npos) << "said twice";
   ASSERT_EQ(records().size(), 1u);
   EXPECT_EQ(records()[0]["scenario"]["name"], "planar_7r");
   EXPECT_THAT(result.out, HasSubstr("planar_7r"));
@@ -237,6 +237,122 @@ TEST_F(ProgramRun, OnlyARegularFileHoldsRuns) {
   const ProgramResult added = run({kPlanar, "--method", "none"});
   EXPECT_EQ(added.status, 2);
   EXPECT_THAT(added.err, HasSubstr("runs.jsonl: cannot write: not a regular file"));
+}
+
+/// Copies of the planar scenario, named `planar_s1_1`, `planar_s1_2`, ...
+std::filesystem::path copies_in(const std::filesystem::path& directory, int count) {
+  const std::filesystem::path copies = directory / "scenarios";
+  std::filesystem::create_directories(copies);
+  const std::string original = content_of(kPlanar);
+  const std::string name = "name: planar_7r\n";
+  const std::size_t place = original.find(name);
+  if (place == std::string::npos) throw std::runtime_error("no name in " + kPlanar);
+  for (int i = 1; i <= count; ++i) {
+    std::string copy = original;
+    copy.replace(place, name.size(), "name: planar_s1_" + std::to_string(i) + "\n");
+    write_file(copies / ("planar_s1_" + std::to_string(i) + ".yaml"), copy);
+  }
+  write_file(copies / "readme.txt", "no scenario");
+  return copies;
+}
+
+TEST_F(ProgramRun, ADirectoryOfManyScenariosGivesASummary) {
+  const std::string many = copies_in(directory_.path(), 13).string();
+  const ProgramResult result = run({many, "--method", "none", "--no-trajectories"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(records().size(), 13u);
+  EXPECT_EQ(records()[1]["scenario"]["name"], "planar_s1_10") << "not in the order of names";
+  EXPECT_THAT(result.out, HasSubstr("13 runs on 13 scenarios of 1 families\n"));
+  EXPECT_THAT(result.out, ::testing::ContainsRegex("\nplanar\n  none +13 +0 +0.0 "));
+  EXPECT_THAT(result.out, Not(HasSubstr("planar_s1_7 ")));
+  EXPECT_TRUE(std::filesystem::is_empty(out_ + "/trajectories"));
+  EXPECT_TRUE(records()[0]["trajectory"].is_null());
+
+  EXPECT_EQ(run_bqsa_bench({"show", out_}).out, result.out);
+  EXPECT_EQ(run_bqsa_bench({"show", out_, "--summary"}).out, result.out);
+  const std::string table = run_bqsa_bench({"show", out_, "--table"}).out;
+  EXPECT_THAT(table, HasSubstr("planar_s1_13: 7 joints"));
+  EXPECT_THAT(table, Not(HasSubstr("13 runs")));
+  const std::string failures = run_bqsa_bench({"show", out_, "--failures"}).out;
+  EXPECT_THAT(failures, ::testing::ContainsRegex("\nplanar_s1_7 +none +collides +[0-9]+ +6 "));
+}
+
+TEST_F(ProgramRun, FewScenariosGiveATableUnlessASummaryIsAskedFor) {
+  const std::string few = copies_in(directory_.path(), 2).string();
+  const ProgramResult result = run({few, "--method", "none", "--summary"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("2 runs on 2 scenarios"));
+  EXPECT_THAT(run_bqsa_bench({"show", out_}).out, HasSubstr("planar_s1_2: 7 joints"));
+}
+
+TEST_F(ProgramRun, DisturbedRunsStandBesideTheOthers) {
+  ASSERT_EQ(run({kPlanar, "--method", "none"}).status, 0);
+  ASSERT_EQ(run({kPlanar, "--method", "none", "--latency"}).status, 0);
+  const std::vector<std::string> noisy = {kPlanar, "--method", "none", "--joint-noise",
+                                          "1e-3",  "--seed",   "5"};
+  const ProgramResult result = run(noisy);
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("normal noise of 0.001 rad, seed 5"));
+  ASSERT_EQ(run(noisy).status, 0);
+  const std::vector<nlohmann::json> all = records();
+  ASSERT_EQ(all.size(), 4u);
+  EXPECT_EQ(all[1]["method"]["variant"], "none+latency");
+  EXPECT_EQ(all[2]["method"]["variant"], "none+noise=0.001+seed=5");
+  EXPECT_EQ(all[2]["judged"], all[3]["judged"]) << "the same seed";
+  EXPECT_NE(all[2]["judged"], all[0]["judged"]);
+  EXPECT_TRUE(std::filesystem::exists(trajectory("none")));
+  EXPECT_TRUE(std::filesystem::exists(trajectory("none+noise=0.001+seed=5")));
+  const std::string table = run_bqsa_bench({"show", out_}).out;
+  for (const char* row : {"x   none ", "x   none+latency ", "x   none+noise=0.001+seed=5"}) {
+    EXPECT_THAT(table, HasSubstr(row));
+  }
+}
+
+TEST_F(ProgramRun, StepRepeatsTheSlowestTick) {
+  ASSERT_EQ(run({kPlanar, "--method", "bqsa"}).status, 0);
+  const nlohmann::json times = records().at(0)["times"];
+  const int tick = times["warm_max_tick"];
+  const ProgramResult slowest =
+      run_bqsa_bench({"step", kPlanar, "--method", "bqsa", "--slowest", out_});
+  ASSERT_EQ(slowest.status, 0) << slowest.err;
+  EXPECT_THAT(slowest.out, HasSubstr("tick: " + std::to_string(tick) + " of 400"));
+  EXPECT_THAT(slowest.out, HasSubstr("time of 1000 repetitions [us]: median "));
+  EXPECT_THAT(slowest.out, Not(HasSubstr("remembers")));
+
+  // The answer is the row that follows in the trajectory, and the state can be taken from there.
+  std::istringstream rows(content_of(trajectory("bqsa")));
+  std::string row;
+  for (int line = 0; line < tick + 2; ++line) std::getline(rows, row);
+  EXPECT_THAT(slowest.out, HasSubstr("q after [rad]: " + row.substr(row.find(',') + 1) + "\n"));
+  const ProgramResult same = run_bqsa_bench({"step", kPlanar, "--method", "bqsa", "--tick",
+                                             std::to_string(tick), "--state", trajectory("bqsa")});
+  ASSERT_EQ(same.status, 0) << same.err;
+  const auto without_time = [](const std::string& text) {
+    return text.substr(0, text.find("time of"));
+  };
+  EXPECT_EQ(without_time(same.out), without_time(slowest.out));
+
+  const ProgramResult other =
+      run_bqsa_bench({"step", kPlanar, "--method", "none", "--slowest", out_});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.err, HasSubstr("holds no slowest tick of none on this file of planar_7r"));
+}
+
+TEST_F(ProgramRun, StepSaysWhatWasCleared) {
+  ASSERT_EQ(run({kPlanar, "--method", "bqsa"}).status, 0);
+  bool cleared = false;
+  for (int tick = 150; tick < 250 && !cleared; ++tick) {
+    const ProgramResult step =
+        run_bqsa_bench({"step", kPlanar, "--method", "bqsa", "--tick", std::to_string(tick),
+                        "--state", trajectory("bqsa")});
+    ASSERT_EQ(step.status, 0) << step.err;
+    if (step.out.find("state: clamped") == std::string::npos) continue;
+    cleared = true;
+    EXPECT_THAT(step.out, HasSubstr("clamp: (6, obstacle), anchor "));
+    EXPECT_THAT(step.out, ::testing::ContainsRegex("increments: [1-9]"));
+    EXPECT_THAT(step.out, ::testing::ContainsRegex("work: [1-9][0-9]* quadratics"));
+  }
+  EXPECT_TRUE(cleared);
 }
 
 TEST_F(ProgramRun, AReaderThatGoesAwayCostsNoResults) {

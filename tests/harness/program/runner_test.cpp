@@ -122,6 +122,40 @@ TEST_F(Runner, CountsClampsByPairAndTick) {
   EXPECT_EQ(outcome.increments_max, 5);
 }
 
+TEST_F(Runner, SummarizesIncrementsOfTheTicksInWhichLinksWereCleared) {
+  const RunOutcome outcome =
+      run(scripted("clamping", [](const StepInput& input, StepOutput& output) {
+        stand_still(input, output);
+        if (input.tick > 101) return;
+        output.clamp_count = 2;  // together as many as the tick, but 1000 in the last
+        output.clamps[0] = {.link = 7, .obstacle = 0, .increments = 1};
+        output.clamps[1] = {.link = 6, .obstacle = 1, .increments = input.tick - 1};
+        if (input.tick == 101) output.clamps[1].increments = 999;
+      }));
+  const TickIncrements& increments = outcome.increments;
+  EXPECT_NEAR(increments.mean, (5050 + 1000) / 101.0, 1e-12);
+  EXPECT_EQ(increments.median, 51);
+  EXPECT_EQ(increments.p99, 100);
+  EXPECT_EQ(increments.max, 1000);
+  EXPECT_EQ(increments.histogram.total(), 101);
+  EXPECT_EQ(outcome.increments_total, 5050 + 1000);
+
+  const RunOutcome still = run(scripted("still", stand_still));
+  EXPECT_TRUE(std::isnan(still.increments.mean));
+  EXPECT_EQ(still.increments.histogram.total(), 0);
+}
+
+TEST_F(Runner, KeepsTheStateOfTheSlowestTick) {
+  std::vector<JointVector> told;
+  const RunOutcome outcome = run(scripted("moving", [&](const StepInput& input, StepOutput& out) {
+    told.push_back(input.q);
+    out.q = input.q.array() + 1e-4;
+  }));
+  const RunTimes& times = outcome.times;
+  ASSERT_GE(times.warm_max_tick, 2);
+  EXPECT_EQ(times.warm_max_q, told.at(static_cast<std::size_t>(times.warm_max_tick) - 1));
+}
+
 TEST_F(Runner, RecordsAnExceptionOfTheMethodWithItsTick) {
   const RunOutcome outcome = run(scripted("throws", [](const StepInput& input, StepOutput& output) {
     if (input.tick == 5) throw std::runtime_error("out of ideas");
@@ -222,7 +256,12 @@ TEST_F(Runner, TakesTheColdStepApartFromTheWarmOnes) {
   EXPECT_TRUE(std::isnan(times.plan_s));
   EXPECT_EQ(times.warm_steps, ticks_ - 1);
   EXPECT_LE(times.warm_median_s, times.warm_p99_s);
-  EXPECT_LE(times.warm_p99_s, times.warm_max_s);
+  EXPECT_LE(times.warm_p99_s, times.warm_p999_s);
+  EXPECT_LE(times.warm_p999_s, times.warm_max_s);
+  EXPECT_EQ(times.warm_histogram.total(), times.warm_steps);
+  const double p99 = times.warm_histogram.quantile(0.99) * RunTimes::kHistogramUnit;
+  EXPECT_NEAR(p99 / times.warm_p99_s, 1, 0.023);
+  EXPECT_GE(times.run_s, times.warm_max_s);
   EXPECT_GE(times.warm_max_tick, 2);
   EXPECT_LE(times.warm_max_tick, ticks_);
 }

@@ -191,6 +191,39 @@ TEST(Table, FitsItsWidthWithManyPairs) {
   EXPECT_GT(lines, 20);
 }
 
+TEST(Table, FitsItsWidthWithLongVariants) {
+  const std::string variant = "test_point@1a2b3c4d+noise=0.0001+seed=18446744073709551615+latency";
+  TableRow row = failure(variant, {Failure::kJointLimit});
+  row.claim = "gave up at tick 100000";
+  std::istringstream in(render_table({row, success("a", "good")}));
+  bool found = false;
+  for (std::string line; std::getline(in, line);) {
+    EXPECT_LE(line.size(), 120u) << line;
+    if (line != "!   " + variant) continue;
+    found = true;
+    ASSERT_TRUE(std::getline(in, line));
+    EXPECT_THAT(line, ::testing::MatchesRegex(" +breaks joint limits .*gave up at tick 100000"));
+  }
+  EXPECT_TRUE(found);
+}
+
+TEST(Table, SaysWhatDisturbedARunAndThatItsClaimFails) {
+  TableRow row = failure("misled", {Failure::kCollision});
+  row.disturbance = "joint angles read 1 tick late";
+  const std::string table = render_table({row});
+  EXPECT_THAT(line_of(table, "misled"), ::testing::StartsWith("!   misled"));
+  EXPECT_THAT(line_of(table, "misled"), ::testing::EndsWith(" success"));
+  EXPECT_THAT(table, HasSubstr("CLAIMED SUCCESS, JUDGED A FAILURE\n"));
+  EXPECT_THAT(table, HasSubstr("(of what the disturbed sensors told it)\n"));
+  EXPECT_THAT(table, HasSubstr("disturbed: joint angles read 1 tick late\n"));
+}
+
+TEST(Table, TimesOfFailuresNeedNoExcuse) {
+  TableRow row = failure("bad", {Failure::kDrift});
+  row.against_times = {"assertions on"};
+  EXPECT_THAT(render_table({row}), Not(HasSubstr("only indicative")));
+}
+
 TEST(Table, SaysWhatSuccessMeansAndWhatMadeIt) {
   const std::string table = render_table({success("a", "good")});
   EXPECT_THAT(table, HasSubstr("no link in an\nobstacle at or between ticks"));

@@ -1,0 +1,306 @@
+#include "harness/results/summary.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+#include <sstream>
+
+#include "bqsa/method.hpp"
+#include "harness/judge/judge.hpp"
+#include "harness/results/text_table.hpp"
+#include "harness/runner.hpp"
+
+namespace bqsa::harness {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TableRow success(const std::string& scenario, const std::string& variant) {
+  TableRow row;
+  row.scenario = scenario;
+  row.variant = variant;
+  row.build = "some build";
+  row.success = true;
+  row.claim = name_of(Claim::kSuccess);
+  row.tip_error_at_ticks_m = 1e-6;
+  row.tip_error_between_ticks_m = 2e-6;
+  row.clearance_m = 0.01;
+  row.max_joint_step_rad = 0.01;
+  row.slowest_s = 1e-5;
+  row.slowest_tick = 3;
+  row.run_s = 0.5;
+  return row;
+}
+
+TableRow failed(const std::string& scenario, const std::string& variant, Failure failure) {
+  TableRow row = success(scenario, variant);
+  row.success = false;
+  row.claim = name_of(Claim::kNothing);
+  row.failures = {name_of(failure)};
+  return row;
+}
+
+TableRow gave_up(const std::string& scenario, const std::string& variant, Infeasible reason) {
+  TableRow row = failed(scenario, variant, Failure::kIncomplete);
+  row.claim = "gave up at tick 7";
+  row.gave_up = name_of(reason);
+  return row;
+}
+
+/// The words of the `which`-th line that begins with this name, the name left out.
+std::vector<std::string> words_of(const std::string& text, const std::string& name, int which = 0) {
+  std::istringstream in(text);
+  std::vector<std::string> words;
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream cells(line);
+    std::string word;
+    if (!(cells >> word) || word != name || which-- > 0) continue;
+    while (cells >> word) words.push_back(word);
+    return words;
+  }
+  return {"no such line"};
+}
+
+TEST(Family, IsTheNameWithoutSeedAndNumber) {
+  EXPECT_EQ(family_of("planar_s1_00042"), "planar");
+  EXPECT_EQ(family_of("near_singular_s12_3"), "near_singular");
+  EXPECT_EQ(family_of("planar_7r"), "planar_7r");
+  EXPECT_EQ(family_of("scene_12"), "scene");
+  EXPECT_EQ(family_of("scene12"), "scene");
+  EXPECT_EQ(family_of("scene_x1_2"), "scene_x1");
+  EXPECT_EQ(family_of("a_s1_b"), "a_s1_b");
+  EXPECT_EQ(family_of("a_s_3"), "a_s");
+  EXPECT_EQ(family_of("_s1_2"), "_s1");
+  EXPECT_EQ(family_of("2016"), "2016");
+  EXPECT_EQ(family_of("scene_"), "scene_");
+  EXPECT_EQ(family_of(""), "");
+}
+
+TEST(WilsonInterval, IsTheSetOfSharesThatTheScoreTestKeeps) {
+  // Solutions of (p - k/n)^2 = z^2 p (1 - p) / n, computed apart from this program.
+  const auto near = [](std::pair<double, double> interval, double low, double high) {
+    EXPECT_NEAR(interval.first, low, 1e-9);
+    EXPECT_NEAR(interval.second, high, 1e-9);
+  };
+  near(wilson_interval(8, 10), 0.4901624715366418, 0.9433178485456247);
+  near(wilson_interval(0, 10), 0, 0.2775327998628892);
+  near(wilson_interval(10, 10), 0.7224672001371114, 1);
+  near(wilson_interval(1712, 2000), 0.8399302416150263, 0.8707048207207215);
+  near(wilson_interval(0, 0), 0, 1);
+}
+
+TEST(FailureClass, IsTheVerdictOrElseTheReasonOfGivingUp) {
+  EXPECT_EQ(failure_class(failed("a", "m", Failure::kCollision)), "collides");
+  EXPECT_EQ(failure_class(gave_up("a", "m", Infeasible::kNoFreeMotion)), "no free motion");
+  TableRow both = gave_up("a", "m", Infeasible::kNoFreeMotion);
+  both.failures = {name_of(Failure::kDrift), name_of(Failure::kIncomplete)};
+  EXPECT_EQ(failure_class(both), "drifts");
+  TableRow crashed = failed("a", "m", Failure::kIncomplete);
+  crashed.claim = "crashed at tick 3";
+  EXPECT_EQ(failure_class(crashed), "crashed");
+  crashed.claim = name_of(Claim::kUnsolved);
+  EXPECT_EQ(failure_class(crashed), "no plan");
+  crashed.claim = name_of(Claim::kSuccess);
+  EXPECT_EQ(failure_class(crashed), "incomplete");
+}
+
+TEST(Summary, CountsByFamilyAndMethod) {
+  TableRow none = success("planar_s1_1", "spatial_only");
+  none.applicable = none.success = false;
+  const std::string text = render_summary({
+      success("planar_s1_1", "good"),
+      success("planar_s1_2", "good"),
+      gave_up("planar_s1_3", "good", Infeasible::kDiverged),
+      failed("planar_s1_1", "bad", Failure::kCollision),
+      success("planar_s1_2", "bad"),
+      success("narrow_s1_1", "good"),
+      none,
+      gave_up("planar_s1_4", "good", Infeasible::kJointLimit),
+  });
+  EXPECT_THAT(text, HasSubstr("8 runs on 5 scenarios of 2 families"));
+  // runs, n/a, successes, %, interval (3 words), failed, claims wrong
+  EXPECT_THAT(words_of(text, "good"),
+              ElementsAre("4", "0", "2", "50.0", "15.0", "to", "85.0", "2", "0"));
+  EXPECT_THAT(words_of(text, "bad"),
+              ElementsAre("2", "0", "1", "50.0", "9.5", "to", "90.5", "1", "0"));
+  EXPECT_THAT(words_of(text, "spatial_only"), ElementsAre("0", "1", "0", "-", "-", "0", "0"));
+  EXPECT_THAT(words_of(text, "good", 1),
+              ElementsAre("1", "0", "1", "100.0", "20.7", "to", "100.0", "0", "0"));
+  // failed; joint limit, diverged, collides; columns without any are left out
+  EXPECT_THAT(words_of(text, "good", 2), ElementsAre("2", "1", "1", "0"));
+  EXPECT_THAT(words_of(text, "bad", 1), ElementsAre("1", "0", "0", "1"));
+  EXPECT_EQ(words_of(text, "spatial_only", 1).front(), "no such line");
+  EXPECT_THAT(text, Not(HasSubstr("! ")));
+}
+
+TEST(Summary, EveryFailureHasAColumn) {
+  std::vector<TableRow> rows;
+  const auto named = [&rows] { return "a_" + std::to_string(rows.size()); };
+  for (int i = 0; i <= static_cast<int>(Failure::kDrift); ++i) {
+    rows.push_back(failed(named(), "m", static_cast<Failure>(i)));
+  }
+  for (int i = 0; i <= static_cast<int>(Infeasible::kDiverged); ++i) {
+    rows.push_back(gave_up(named(), "m", static_cast<Infeasible>(i)));
+  }
+  const std::vector<std::string> words = words_of(render_summary(rows), "m", 1);
+  int sum = 0;
+  for (std::size_t i = 1; i < words.size(); ++i) sum += std::stoi(words[i]);
+  EXPECT_EQ(words.at(0), std::to_string(rows.size()));
+  EXPECT_EQ(sum, static_cast<int>(rows.size()));
+}
+
+TEST(Summary, AWrongClaimIsLoud) {
+  TableRow lie = failed("planar_1", "liar", Failure::kCollision);
+  lie.claim_holds = false;
+  const std::string text = render_summary({lie, success("planar_2", "liar")});
+  EXPECT_THAT(text, HasSubstr("! CLAIM AND VERDICT DIFFER in 1 of 2 runs: liar on planar"));
+  EXPECT_EQ(words_of(text, "liar").back(), "1");
+
+  lie.disturbance = "joint angles read 1 tick late";
+  const std::string misled = render_summary({lie});
+  EXPECT_THAT(misled, Not(HasSubstr("DIFFER")));
+  EXPECT_THAT(misled,
+              HasSubstr("! claim and verdict differ in 1 of 1 runs: liar on planar, of what"));
+  EXPECT_EQ(words_of(misled, "liar").back(), "1");
+
+  lie.failures = {name_of(Failure::kDisagreement)};
+  EXPECT_THAT(render_summary({lie}), Not(HasSubstr("! "))) << "no verdict to differ from";
+}
+
+TEST(Summary, FiguresAreTheWorstOfTheSuccesses) {
+  TableRow one = success("a_1", "m");
+  TableRow two = success("a_2", "m");
+  two.tip_error_at_ticks_m = 3e-4;
+  one.tip_error_between_ticks_m = 4e-4;
+  two.clearance_m = 0.002;
+  one.max_joint_step_rad = 0.1;
+  for (int i = 0; i < 98; ++i) one.increments.add(4);
+  for (int i = 0; i < 2; ++i) two.increments.add(20);
+  one.increments_max = 4;
+  two.increments_max = 20;
+  TableRow worse = failed("a_3", "m", Failure::kDrift);
+  worse.tip_error_at_ticks_m = worse.tip_error_between_ticks_m = worse.max_joint_step_rad = 1;
+  worse.clearance_m = -1;
+  EXPECT_THAT(words_of(render_summary({one, two, worse}), "m", 2),
+              ElementsAre("0.3", "0.4", "2", "5.73", "100", "4", "20", "20"));
+}
+
+TEST(Summary, QuantilesAreThoseOfAllTicksTogether) {
+  // One run of many fast ticks and one of few slow ones: the median of the medians would be wrong.
+  TableRow fast = success("a_1", "m");
+  for (int i = 0; i < 990; ++i) fast.step_times.add(2000);  // [ns]
+  TableRow slow = success("a_2", "m");
+  for (int i = 0; i < 10; ++i) slow.step_times.add(800'000);
+  slow.slowest_s = 9e-4;
+  slow.slowest_tick = 44;
+  TableRow slower = gave_up("a_3", "m", Infeasible::kNoFreeMotion);
+  slower.slowest_s = 5e-3;
+  slower.slowest_tick = 55;
+  slower.against_times = {"assertions on"};
+  const std::string text = render_summary({fast, slow, slower});
+  const std::vector<std::string> words = words_of(text, "m", 3);
+  ASSERT_EQ(words.size(), 9u) << text;
+  EXPECT_EQ(words[0], "1000");
+  EXPECT_NEAR(std::stod(words[1]), 2, 0.05);
+  EXPECT_NEAR(std::stod(words[2]), 2, 0.05);
+  EXPECT_NEAR(std::stod(words[3]), 800, 20);
+  EXPECT_EQ(words[4], "900");
+  EXPECT_THAT(std::vector<std::string>(words.begin() + 5, words.end()),
+              ElementsAre("~5000", "a_3", "55", "1.5"));
+  EXPECT_THAT(text, HasSubstr("~ times only indicative: assertions on"));
+}
+
+TEST(Summary, ComparesMethodsOnTheScenariosOfBoth) {
+  std::vector<TableRow> rows;
+  const auto add = [&rows](int number, bool a, bool b) {
+    const std::string name = "p_s1_" + std::to_string(number);
+    rows.push_back(a ? success(name, "A") : failed(name, "A", Failure::kDrift));
+    rows.push_back(b ? success(name, "B") : failed(name, "B", Failure::kDrift));
+  };
+  int number = 0;
+  for (int i = 0; i < 4; ++i) add(++number, true, true);
+  for (int i = 0; i < 3; ++i) add(++number, true, false);
+  for (int i = 0; i < 2; ++i) add(++number, false, true);
+  add(++number, false, false);
+  rows.push_back(success("p_s1_99", "A"));
+  TableRow not_b = success("p_s1_99", "B");
+  not_b.applicable = not_b.success = false;
+  rows.push_back(not_b);
+  EXPECT_THAT(words_of(render_summary(rows), "A,"), ElementsAre("B", "10", "4", "3", "2", "1"));
+}
+
+TEST(Summary, TheLastRunOfAFileAndVariantCounts) {
+  TableRow old = failed("p_1", "m", Failure::kDrift);
+  old.sha256 = "1";
+  TableRow newer = success("p_1", "m");
+  newer.sha256 = "1";
+  EXPECT_THAT(words_of(render_summary({old, newer}), "m").at(1), "1");
+  newer.sha256 = "2";
+  const std::string text = render_summary({old, newer});
+  EXPECT_EQ(words_of(text, "m").at(0), "2");
+  EXPECT_THAT(text, HasSubstr("2 scenario files share 1 names"));
+}
+
+TEST(Summary, FitsItsWidth) {
+  std::vector<TableRow> rows;
+  std::mt19937 random(1);
+  for (int i = 0; i < 2000; ++i) {
+    const std::string name =
+        "near_singular_s" + std::to_string(random() % 3) + "_" + std::to_string(10000 + i);
+    const std::string method = i % 2 == 0 ? "bqsa" : "test_point@9735da8b+noise=0.001+seed=12345";
+    const int kind = static_cast<int>(random() % 20);
+    if (kind < 9) {
+      rows.push_back(failed(name, method, static_cast<Failure>(kind)));
+    } else if (kind < 15) {
+      rows.push_back(gave_up(name, method, static_cast<Infeasible>(kind - 9)));
+    } else {
+      rows.push_back(success(name, method));
+      rows.back().slowest_s = 1.23;
+      rows.back().step_times.add(1.23e9);
+    }
+  }
+  int lines = 0;
+  for (const std::string& text : {render_summary(rows), render_failures(rows)}) {
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line); ++lines) EXPECT_LE(line.size(), 120u) << line;
+  }
+  EXPECT_GT(lines, 1000);
+}
+
+TEST(Failures, AreListedWithTheirPlaces) {
+  TableRow row = gave_up("p_1", "m", Infeasible::kJointLimit);
+  row.failure_tick = 7;
+  row.failure_link = 5;
+  row.failure_obstacle = "post";
+  TableRow drifted = failed("p_2", "m", Failure::kDrift);
+  drifted.failure_tick = 9;
+  const std::string text = render_failures({row, drifted, success("p_3", "m")});
+  EXPECT_THAT(words_of(text, "p_1"), ElementsAre("m", "joint", "limit", "7", "5", "post"));
+  EXPECT_THAT(words_of(text, "p_2"), ElementsAre("m", "drifts", "9", "-", "-"));
+  EXPECT_THAT(text, Not(HasSubstr("p_3")));
+  EXPECT_THAT(text, Not(HasSubstr("because")));
+  row.claim_class = "singular";
+  EXPECT_EQ(words_of(render_failures({row}), "p_1").back(), "singular");
+  EXPECT_EQ(render_failures({success("p_3", "m")}), "no run failed\n");
+}
+
+TEST(TextTable, AlignsAndKeepsLongNamesApart) {
+  TextTable table({{"name", "", true}, {"count", "[-]"}, {"none", "", false, true}});
+  table.add_row({"a", "1", "0"});
+  table.add_heading("group");
+  table.add_row({std::string(119, 'x'), "1234567", ""});
+  const auto spaces = [](std::size_t count) { return std::string(count, ' '); };
+  EXPECT_EQ(table.text(), "name" + spaces(107) + "    count\n" +   //
+                              spaces(111) + "      [-]\n" +        //
+                              "a" + spaces(110) + "        1\n" +  //
+                              "group\n" +                          //
+                              std::string(119, 'x') + "\n" + spaces(111) + "  1234567\n");
+}
+
+TEST(Summary, OfNothingSaysSo) { EXPECT_EQ(render_summary({}), "no runs\n"); }
+
+}  // namespace
+}  // namespace bqsa::harness
