@@ -161,7 +161,7 @@ class MovingTip {
 
 /// Refuses a tip path that enters a moving obstacle, the two taken at the same time.
 void check_moving(const YamlValue& value, const Problem& problem, const Task& task) {
-  constexpr long kLooks = 1L << 23;  // seconds of work
+  constexpr long kLooks = 1L << 21;  // seconds of work
   long looks = kLooks;
   for (const Obstacle& obstacle : problem.obstacles) {
     if (!obstacle.moves()) continue;

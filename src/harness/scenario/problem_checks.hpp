@@ -19,7 +19,7 @@ void check_start(const YamlValue& value, const Problem& problem, const Units& un
 /// obstacle, the tip taken as a ball of the link radius. Of an obstacle at rest the path must keep
 /// out as a set of points, of one that moves the tip wherever the two are at the same time. Both
 /// hold for the whole motion, to the touching band of 1e-6 m; a path that keeps so near to moving
-/// obstacles that 2^23 looks do not show it is refused too.
+/// obstacles that 2^21 looks do not show it is refused too.
 void check_path(const YamlValue& value, const Problem& problem, const Task& task,
                 double start_tolerance, const Units& units);
 

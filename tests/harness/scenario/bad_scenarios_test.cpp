@@ -176,5 +176,66 @@ TEST(BadScenarios, WaypointFilesAreRefusedWithTheirOwnLine) {
             "s.yaml:14: task.path.file: expected a file in the scenario's directory, got way.csv");
 }
 
+TEST(BadScenarios, WaypointFilesOfMotionsAreRefusedWithTheirOwnLine) {
+  const TestDirectory directory;
+  const YAML::Node bases = table();
+  const std::string planar =
+      with(bases["planar"].as<std::string>(), "semi_axes: [0.3, 0.2], rotation: 30}",
+           "semi_axes: [0.3, 0.2], rotation: 30, motion: {kind: waypoints, file: way.csv}}");
+  const auto refused = [&](const std::string& csv) {
+    directory.write("way.csv", csv);
+    return refusal(directory, planar);
+  };
+  const std::string file = "s.yaml:17: obstacles[0].motion.file: expected ";
+  EXPECT_EQ(refused("t,x,y\n0,-1,1\n1,-2,1\n"), "no error");
+  EXPECT_EQ(refused("t,x,y,angle\n-1,-1,1,30\n0,-1,1,30\n9,-2,1,60\n"), "no error");
+  EXPECT_EQ(refused(""), "way.csv: expected the header t,x,y or t,x,y,angle, got an empty file");
+  EXPECT_EQ(refused("t,x,y,z\n"),
+            "way.csv:1: expected the header t,x,y or t,x,y,angle, got t,x,y,z");
+  EXPECT_EQ(refused("t,x,y\n0,-1,1\n"), "way.csv:3: t: expected 2 or more waypoints, got 1");
+  EXPECT_EQ(refused("t,x,y\n1,-1,1\n0,-1,1\n"), "way.csv:3: t: expected a time after 1, got 0");
+  EXPECT_EQ(refused("t,x,y\n0,-1,1\n1e7,-1,1\n"),
+            "way.csv:3: t: expected a time of at most 1e+06 s, got 1e+07");
+  EXPECT_EQ(refused("t,x,y\n0,-1,1\nnan,-1,1\n"),
+            "way.csv:3: t: expected a finite number, got nan");
+  EXPECT_EQ(refused("t,x,y\n0,-1,1\n1,inf,1\n"), "way.csv:3: x: expected a finite number, got inf");
+  EXPECT_EQ(refused("t,x,y\n0,-1,1\n1,-1,1e7\n"),
+            "way.csv:3: y: expected a length of at most 1e+06 m, got 1e+07 m");
+  EXPECT_EQ(refused("t,x,y,angle\n0,-1,1,30\n1,-1,1,-inf\n"),
+            "way.csv:3: angle: expected a finite number, got -inf");
+  EXPECT_EQ(refused("t,x,y,angle\n0,-1,1,30\n1,-1,1,1e6\n"),
+            "way.csv:3: angle: expected an angle of at most 572958 deg, got 1e+06 deg");
+  EXPECT_EQ(
+      refused("t,x,y\n0,-1.000002,1\n1,-2,1\n"),
+      file + "waypoints that agree with the obstacle's center (-1, 1) m at t = 0, got (-1, 1) m");
+  EXPECT_EQ(refused("t,x,y\n0,-1.0000009,1\n1,-2,1\n"), "no error");
+  EXPECT_EQ(refused("t,x,y,angle\n0,-1,1,31\n1,-2,1,31\n"),
+            file +
+                "waypoints that agree with the obstacle's rotation at t = 0, got one that is "
+                "turned by 1 deg");
+  EXPECT_EQ(refused("t,x,y,angle\n0,-1,1,30\n0.04,-1,1,209.99\n"), "no error");
+  EXPECT_EQ(refused("t,x,y,angle\n0,-1,1,30\n0.04,-1,1,210.01\n"),
+            file +
+                "angles that change by less than half a turn between two ticks, all together, got "
+                "180.01 deg before t = 0.04 s");
+
+  const std::string spatial = with(bases["spatial"].as<std::string>(), "rpy: [10, 20, 30]}",
+                                   "rpy: [10, 20, 30], motion: {kind: waypoints, file: way.csv}}");
+  const auto refused_in_space = [&](const std::string& csv) {
+    directory.write("way.csv", csv);
+    return refusal(directory, spatial);
+  };
+  EXPECT_EQ(refused_in_space("t,x,y,z\n0,0,0,900\n1,0,0,950\n"), "no error");
+  EXPECT_EQ(refused_in_space("t,x,y,z,r,p,y\n0,0,0,900,10,20,30\n1,0,0,950,0,0,0\n"), "no error");
+  EXPECT_EQ(refused_in_space("t,x,y\n"),
+            "way.csv:1: expected the header t,x,y,z or t,x,y,z,r,p,y, got t,x,y");
+  EXPECT_EQ(
+      refused_in_space("t,x,y,z,r,p,y\n0,0,0,900,10,20,30\n0.04,0,0,950,70,80,91\n"),
+      "s.yaml:15: obstacles[0].motion.file: expected angles that change by less than half a turn "
+      "between two ticks, all together, got 181 deg before t = 0.04 s");
+  std::filesystem::remove(directory.path() / "way.csv");
+  EXPECT_EQ(refusal(directory, spatial), "way.csv: expected a file, got nothing there");
+}
+
 }  // namespace
 }  // namespace bqsa::harness

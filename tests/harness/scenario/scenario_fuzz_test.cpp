@@ -53,16 +53,42 @@ std::string mutated(std::string text, std::mt19937& random) {
   return text;
 }
 
+constexpr const char* kWaypoints =
+    "t,x,y,angle\n0,-0.9,0.05,10\n1,-0.8,0.05,40\n1.7,-0.8,0.25,-5\n";
+
+constexpr const char* kMoving = R"(schema: bqsa-scenario/1
+name: moving
+units: {length: m, angle: deg}
+robot: {kind: planar, links: [1, 1]}
+start: [0, 90]
+task:
+  path: {kind: line, start_point: [1, 1], end_point: [0.5, 1]}
+  timing: {duration: 2, ticks: 10}
+obstacles:
+  - name: a
+    kind: ellipse
+    center: [-0.9, 0.05]
+    semi_axes: [0.3, 0.02]
+    motion: {kind: waypoints, file: way.csv}
+  - name: b
+    kind: ellipse
+    center: [0.7, 0.4]
+    semi_axes: [0.1, 0.02]
+    rotation: 20
+    motion: {kind: linear, velocity: [0.1, 0.2], angular_velocity: -40}
+)";
+
 TEST(ScenarioFuzz, AMutatedFileGivesAScenarioOrAnInputError) {
   const TestDirectory directory;
+  directory.write("way.csv", kWaypoints);
   const std::string originals[] = {content_of("planar_7r.yaml"),
                                    content_of("puma560_ellipsoid.yaml"),
-                                   content_of("puma560_wall.yaml")};
+                                   content_of("puma560_wall.yaml"), kMoving};
   std::mt19937 random(20160209);
   int loaded = 0;
   int refused = 0;
   for (int i = 0; i < 20'000; ++i) {
-    const std::string text = mutated(originals[i % 3], random);
+    const std::string text = mutated(originals[i % 4], random);
     try {
       const Scenario scenario = directory.load(text);
       ASSERT_TRUE(scenario.problem.desired_tip(0.3).allFinite()) << "case " << i << '\n' << text;
@@ -76,6 +102,29 @@ TEST(ScenarioFuzz, AMutatedFileGivesAScenarioOrAnInputError) {
   RecordProperty("loaded", loaded);
   EXPECT_GT(loaded, 500);
   EXPECT_GT(refused, 10'000);
+}
+
+TEST(ScenarioFuzz, AMutatedWaypointFileGivesAScenarioOrAnInputError) {
+  const TestDirectory directory;
+  std::mt19937 random(20160210);
+  int loaded = 0;
+  int refused = 0;
+  for (int i = 0; i < 2'000; ++i) {
+    const std::string text = mutated(kWaypoints, random);
+    directory.write("way.csv", text);
+    try {
+      const Obstacle obstacle = directory.load(kMoving).problem.obstacles[0];
+      ASSERT_EQ(obstacle.motion.size(), 11U) << "case " << i << '\n' << text;
+      ASSERT_TRUE(obstacle.at(10).center().allFinite()) << "case " << i << '\n' << text;
+      ++loaded;
+    } catch (const InputError&) {
+      ++refused;
+    } catch (...) {
+      FAIL() << "another exception in case " << i << '\n' << text;
+    }
+  }
+  EXPECT_GT(loaded, 20);
+  EXPECT_GT(refused, 1'000);
 }
 
 }  // namespace

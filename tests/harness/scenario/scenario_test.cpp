@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -286,6 +287,195 @@ TEST(Scenario, Sha256IsThatOfTheFilesBytes) {
   EXPECT_EQ(directory.load(kPlanar).sha256,
             "d291dc21e3853d4d2112f3d7837c19132eb73a8a2f4e7359a93a5b4016554395");  // as sha256sum
                                                                                   // prints it
+}
+
+// Two links and a path along x at y = 1; what stands in the way moves.
+std::string moving_scenario(const std::string& obstacle, const std::string& ticks = "10") {
+  return "schema: bqsa-scenario/1\nname: s\nunits: {length: mm, angle: deg}\n"
+         "robot: {kind: planar, links: [1000, 1000]}\nstart: [0, 90]\n"
+         "task: {path: {kind: line, start_point: [1000, 1000], end_point: [500, 1000]},"
+         " timing: {duration: 2, ticks: " +
+         ticks + "}}\nobstacles: [{name: a, " + obstacle + "}]\n";
+}
+
+std::string moving_spatial_scenario(const std::string& obstacle) {
+  return "schema: bqsa-scenario/1\nname: s\nunits: {length: mm, angle: deg}\n"
+         "robot: {kind: dh, joints: [{a: 500, alpha: 90, d: 0}, {a: 500, alpha: 0, d: 0}]}\n"
+         "start: [0, 0]\ntask: {path: {kind: line, start_point: [1000, 0, 0],"
+         " end_point: [1000, 0, 0]}, timing: {duration: 2, ticks: 10}}\n"
+         "obstacles: [{name: a, " +
+         obstacle + "}]\n";
+}
+
+TEST(Scenario, ALinearMotionIsStraightAndTurnsEvenly) {
+  const TestDirectory directory;
+  const Obstacle planar =
+      directory
+          .load(moving_scenario("kind: ellipse, center: [-900, 50], semi_axes: [300, 20],"
+                                " rotation: 20, motion: {kind: linear, velocity: [-30, 400],"
+                                " angular_velocity: -90}"))
+          .problem.obstacles[0];
+  ASSERT_EQ(planar.motion.size(), 11U);
+  EXPECT_EQ(planar.shape.unit_map(), planar.motion[0].unit_map());
+  for (int tick = 0; tick <= 10; ++tick) {
+    const double t = 0.2 * tick, angle = (20 - 90 * t) * kDegree;
+    const Ellipsoid& shape = planar.at(tick);
+    EXPECT_LT((shape.center() - Vector3d(-0.9 - 0.03 * t, 0.05 + 0.4 * t, 0)).norm(), 1e-15);
+    EXPECT_LT((shape.rotation().col(0) - Vector3d(std::cos(angle), std::sin(angle), 0)).norm(),
+              1e-14);
+    EXPECT_EQ(shape.rotation().col(2), Vector3d::UnitZ());
+    EXPECT_EQ(shape.semi_axes(), Vector3d(0.3, 0.02, 0.3));
+  }
+  const Obstacle spatial =
+      directory
+          .load(moving_spatial_scenario(
+              "kind: ellipsoid, center: [0, 0, 900], semi_axes: [300, 20, 10], rpy: [10, 20, 30],"
+              " motion: {kind: linear, velocity: [1, 2, 3], angular_velocity: [0, 30, -40]}"))
+          .problem.obstacles[0];
+  const Vector3d axis(0, 0.6, -0.8);
+  for (int tick = 0; tick <= 10; ++tick) {
+    const double t = 0.2 * tick, angle = 50 * kDegree * t;
+    EXPECT_LT((spatial.at(tick).center() - Vector3d(1e-3 * t, 2e-3 * t, 0.9 + 3e-3 * t)).norm(),
+              1e-15);
+    for (int column = 0; column < 3; ++column) {
+      // Rodrigues' formula.
+      const Vector3d v = spatial.shape.rotation().col(column);
+      const Vector3d turned = std::cos(angle) * v + std::sin(angle) * axis.cross(v) +
+                              (1 - std::cos(angle)) * axis.dot(v) * axis;
+      EXPECT_LT((spatial.at(tick).rotation().col(column) - turned).norm(), 1e-14) << tick;
+    }
+  }
+}
+
+TEST(Scenario, MotionWaypointsGiveThePoseAtEveryTick) {
+  const TestDirectory directory;
+  const std::string file = ", motion: {kind: waypoints, file: way.csv}";
+  directory.write("way.csv", "t,x,y,angle\n0.5,-900,50,-10\n0.9,-800,50,30\n1.7,-800,250,-50\n");
+  const Obstacle planar =
+      directory
+          .load(moving_scenario("kind: ellipse, center: [-900, 50], semi_axes: [300, 20]" + file))
+          .problem.obstacles[0];
+  ASSERT_EQ(planar.motion.size(), 11U);
+  const double t_x_y_angle[][4] = {
+      {0, -0.9, 0.05, -10}, {2, -0.9, 0.05, -10},  {3, -0.875, 0.05, 0}, {4, -0.825, 0.05, 20},
+      {5, -0.8, 0.075, 20}, {8, -0.8, 0.225, -40}, {9, -0.8, 0.25, -50}, {10, -0.8, 0.25, -50}};
+  for (const auto& [tick, x, y, angle] : t_x_y_angle) {
+    const Ellipsoid& shape = planar.at(static_cast<int>(tick));
+    EXPECT_LT((shape.center() - Vector3d(x, y, 0)).norm(), 1e-15) << tick;
+    const double a = angle * kDegree;
+    EXPECT_LT((shape.rotation().col(0) - Vector3d(std::cos(a), std::sin(a), 0)).norm(), 1e-14);
+  }
+
+  directory.write("way.csv", "t,x,y\n0,-900,50\n2,-900,150\n");
+  const Obstacle unturned =
+      directory
+          .load(moving_scenario(
+              "kind: ellipse, center: [-900, 50], semi_axes: [300, 20], rotation: 30" + file))
+          .problem.obstacles[0];
+  EXPECT_LT((unturned.at(5).center() - Vector3d(-0.9, 0.1, 0)).norm(), 1e-15);
+  EXPECT_EQ(unturned.at(10).rotation(), unturned.shape.rotation());
+
+  directory.write("way.csv", "t,x,y,z,r,p,y\n0,0,0,900,10,20,30\n2,0,0,800,50,40,-10\n");
+  const Obstacle spatial = directory
+                               .load(moving_spatial_scenario(
+                                   "kind: ellipsoid, center: [0, 0, 900], semi_axes: [300, 20, 10],"
+                                   " rpy: [10, 20, 30]" +
+                                   file))
+                               .problem.obstacles[0];
+  const Problem halfway = directory
+                              .load(moving_spatial_scenario(
+                                  "kind: ellipsoid, center: [0, 0, 850], semi_axes: [300, 20, 10],"
+                                  " rpy: [30, 30, 10]"))
+                              .problem;
+  EXPECT_LT((spatial.at(5).rotation() - halfway.obstacles[0].shape.rotation()).norm(), 1e-14);
+  EXPECT_LT((spatial.at(5).center() - Vector3d(0, 0, 0.85)).norm(), 1e-15);
+}
+
+// The tip and the obstacle are compared where they are at one time, against samples of both.
+TEST(Scenario, APathIsRefusedExactlyIfTheTipMeetsTheMovingObstacle) {
+  const TestDirectory directory;
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const auto text_of = [](double number) { return std::to_string(number); };
+  int met = 0, only_between = 0, clear = 0;
+  for (int k = 0; k < 200; ++k) {
+    // A ball of 20 mm that crosses the path near x = 750 mm, which the tip reaches after 1 s.
+    const double x = 750 + 60 * uniform(random), crossing = 1 + 0.2 * uniform(random);
+    const double speed = (k % 2 == 0 ? 1 : -1) * 2000;
+    const std::string message = message_of(directory, [&] {
+      directory.load(moving_scenario("kind: ellipse, semi_axes: [20, 20], center: [" + text_of(x) +
+                                         ", " + text_of(1000 - crossing * speed) +
+                                         "], motion: {kind: linear, velocity: [0, " +
+                                         text_of(speed) + "]}",
+                                     "11"));
+    });
+    const auto gap = [&](double t) {
+      return std::hypot(1000 - 250 * t - x, (t - crossing) * speed) - 20;
+    };
+    double least = 1000, first = -1;
+    for (int i = 0; i <= 200'000; ++i) {
+      const double t = i * 1e-5;
+      least = std::min(least, gap(t));
+      if (first < 0 && gap(t) < 0) first = t;
+    }
+    if (std::abs(least) < 0.02) continue;
+    if (least > 0) {
+      ASSERT_EQ(message, "no error") << "case " << k;
+      ++clear;
+      continue;
+    }
+    ++met;
+    const std::string expected =
+        "s.yaml:6: task.path: expected a path free of obstacles, got one that enters obstacle a at "
+        "t = ";
+    ASSERT_EQ(message.substr(0, expected.size()), expected) << "case " << k;
+    // Four digits are shown.
+    ASSERT_NEAR(std::stod(message.substr(expected.size())), first, 5.2e-4) << "case " << k;
+    bool at_tick = false;
+    for (int tick = 0; tick <= 11; ++tick) at_tick = at_tick || gap(tick * 2.0 / 11) < 0;
+    if (!at_tick) ++only_between;
+  }
+  EXPECT_GT(met, 25);
+  EXPECT_GT(only_between, 15);
+  EXPECT_GT(clear, 25);
+}
+
+TEST(Scenario, APathThatKeepsTooNearToAMovingObstacleIsRefusedInsteadOfStalling) {
+  const TestDirectory directory;
+  // The ball goes along above the tip and touches it all the way; a hair higher it is clear.
+  const auto load = [&directory](const std::string& height) {
+    return message_of(directory, [&] {
+      directory.load(moving_scenario("kind: ellipse, center: [1000, " + height +
+                                     "], semi_axes: [100, 100],"
+                                     " motion: {kind: linear, velocity: [-250, 0]}"));
+    });
+  };
+  const std::string message = load("1100");
+  EXPECT_TRUE(message.starts_with(
+      "s.yaml:6: task.path: expected a path that 2097152 looks show to keep out of moving "
+      "obstacles, got one that keeps too near to obstacle a for that, until t = "))
+      << message;
+  EXPECT_EQ(load("1100.02"), "no error");
+}
+
+TEST(Scenario, Sha256CountsTheFilesThatAScenarioNames) {
+  const TestDirectory directory;
+  directory.write("way.csv", "t,x,y\n0,-900,50\n2,-900,150\n");
+  const std::string scenario = moving_scenario(
+      "kind: ellipse, center: [-900, 50], semi_axes: [300, 20], motion: {kind: waypoints, file: "
+      "way.csv}");
+  const std::string path =
+      with(scenario, "{kind: line, start_point: [1000, 1000], end_point: [500, 1000]}",
+           "{kind: waypoints, file: path.csv}");
+  directory.write("path.csv", "t,x,y\n0,1000,1000\n2,500,1000\n");
+  // As `cat s.yaml way.csv | sha256sum` and `cat s.yaml path.csv way.csv | sha256sum` print it.
+  EXPECT_EQ(directory.load(scenario).sha256,
+            "b95d85b144f9b36dd669701c5705b42b32343c868922b4573c57e187f09f3dfe");
+  EXPECT_EQ(directory.load(path).sha256,
+            "d50b41ac5fa0541827a7ab1a5651261ca523e747572b25e05d168d0e5c173e08");
+  directory.write("way.csv", "t,x,y\n0,-900,50\n2,-900,151\n");
+  EXPECT_NE(directory.load(path).sha256,
+            "d50b41ac5fa0541827a7ab1a5651261ca523e747572b25e05d168d0e5c173e08");
 }
 
 TEST(Scenario, AStartThatTouchesIsFree) {
