@@ -163,7 +163,8 @@ void declare(CLI::App& app, CommandLine& line) {
       ->required()
       ->check(CLI::Range(1, kMostGenerated));
   generate->add_option("--seed", line.generate.seed, "Seed; file k is the same for every count")
-      ->required();
+      ->required()
+      ->check(CLI::NonNegativeNumber);
   generate
       ->add_option("--out,-o", line.generate.directory,
                    "Directory for the files; other content in it is not overwritten")

@@ -2,6 +2,7 @@
 
 #include <ostream>
 
+#include "harness/generator/generator.hpp"
 #include "harness/methods.hpp"
 #include "harness/program/commands.hpp"
 #include "harness/program/scenario_files.hpp"
@@ -50,6 +51,11 @@ void print_method(const MethodEntry& method, std::ostream& out) {
 Status list_command(const std::filesystem::path& scenarios, const Console& console) {
   console.out << "methods (parameter, default, unit, range, meaning)\n";
   for (const MethodEntry& method : methods()) print_method(method, console.out);
+
+  console.out << "\nfamilies of random scenarios, for generate\n";
+  for (const Family& family : families()) {
+    console.out << fmt::format("  {:<12}{}\n", family.name, family.summary);
+  }
 
   const std::filesystem::path directory = scenarios.empty() ? kDefaultDirectory : scenarios;
   if (scenarios.empty() && !std::filesystem::exists(directory)) {
