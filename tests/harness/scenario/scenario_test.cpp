@@ -440,6 +440,22 @@ TEST(Scenario, APathIsRefusedExactlyIfTheTipMeetsTheMovingObstacle) {
   EXPECT_GT(clear, 25);
 }
 
+TEST(Scenario, ASlowThinSheetIsMetByAFastTipBetweenTicks) {
+  const TestDirectory directory;
+  for (const char* x : {"530", "655", "700", "810", "960"}) {
+    const std::string message = message_of(directory, [&] {
+      directory.load(moving_scenario("kind: ellipse, center: [" + std::string(x) +
+                                         ", 1000], semi_axes: [0.02, 10],"
+                                         " motion: {kind: linear, velocity: [0, 0.001]}",
+                                     "1"));
+    });
+    const std::string expected = "one that enters obstacle a at t = ";
+    ASSERT_NE(message.find(expected), std::string::npos) << x << message;
+    EXPECT_NEAR(std::stod(message.substr(message.find(expected) + expected.size())),
+                (1000 - std::stod(x)) / 250, 1e-3);
+  }
+}
+
 TEST(Scenario, APathThatKeepsTooNearToAMovingObstacleIsRefusedInsteadOfStalling) {
   const TestDirectory directory;
   // The ball goes along above the tip and touches it all the way; a hair higher it is clear.
