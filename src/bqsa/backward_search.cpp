@@ -28,7 +28,8 @@ void BackwardSearch::step(const StepInput& input, StepOutput& output) {
   if (reason == Infeasible::kNot) return;
   const int link = output.link;
   const int obstacle = output.obstacle;
-  if (settings_.release == Release::kLast && found(Way::kTogether)) return;
+  const bool time_left = increments_left_ > 0;
+  if (settings_.release == Release::kLast && time_left && found(Way::kTogether)) return;
   hold(input.q, reason, link, obstacle, output);
 }
 
