@@ -7,6 +7,7 @@ namespace bqsa {
 void BackwardSearch::prepare(const Problem& problem) {
   problem_ = &problem;
   counters_ = {};
+  lean_ = JointVector::Zero(problem.chain.joints());
   certificate_.assign(problem, problem.link_radius + problem.margin, counters_);
 }
 
@@ -17,21 +18,43 @@ void BackwardSearch::step(const StepInput& input, StepOutput& output) {
 
   if (!predict(input)) return hold(input.q, Infeasible::kDiverged, 0, -1, output);  // 1, 2
   const JointVector q_predicted = q_;
-  const Infeasible forbidden = forbidden_step(*problem_, input.q, q_predicted);
-  if (forbidden != Infeasible::kNot) return hold(input.q, forbidden, 0, -1, output);
 
+  const auto found = [&](Way way) {
+    return search(input, q_predicted, way, output) == Infeasible::kNot;
+  };
+  if (settings_.release == Release::kFirst && found(Way::kTogether)) return;
+  Infeasible reason = forbidden_step(*problem_, input.q, q_predicted);
+  if (reason == Infeasible::kNot) reason = search(input, q_predicted, Way::kOneByOne, output);
+  if (reason == Infeasible::kNot) return;
+  const int link = output.link;
+  const int obstacle = output.obstacle;
+  const bool time_left = increments_left_ > 0;
+  if (settings_.release == Release::kLast && time_left && found(Way::kTogether)) return;
+  hold(input.q, reason, link, obstacle, output);
+}
+
+/// Steps 3 to 6: clears q_predicted in one of the ways; where the motion to what was found cannot be
+/// certified, again with twice the distance.
+Infeasible BackwardSearch::search(const StepInput& input, const JointVector& q_predicted, Way way,
+                                  StepOutput& output) {
+  const JointBox box = reachable_box(*problem_, input.q);
   double distance = settings_.safety_offset;
   MotionCertificate::Result motion;
   JointVector q_refused;
   for (int attempt = 0; attempt <= settings_.retries; ++attempt, distance *= 2) {
     keep(problem_->link_radius + problem_->margin + distance);
     output.clamp_count = 0;
+    output.link = 0;
+    output.obstacle = -1;
     q_ = q_predicted;
     forward();
-    const Infeasible reason = free_links(input, output);  // 3, 4
+    const Infeasible reason = way == Way::kOneByOne ? free_links(input, output)
+                              : free_together(input.p_WT_desired, box, &output)
+                                  ? Infeasible::kNot
+                                  : Infeasible::kNoFreeConfiguration;
     if (reason != Infeasible::kNot) {
       if (!motion.certified) break;
-      return hold(input.q, reason, output.link, output.obstacle, output);
+      return reason;
     }
     if (attempt > 0 && q_ == q_refused) continue;  // more distance changed nothing
     q_refused = q_;
@@ -39,10 +62,23 @@ void BackwardSearch::step(const StepInput& input, StepOutput& output) {
     if (motion.certified) {
       output.q = q_;
       output.state = output.clamp_count > 0 ? TickState::kClamped : TickState::kFree;
-      return;
+      return Infeasible::kNot;
     }
   }
-  hold(input.q, Infeasible::kNoFreeMotion, motion.link, motion.obstacle, output);
+  output.link = motion.link;
+  output.obstacle = motion.obstacle;
+  return Infeasible::kNoFreeMotion;
+}
+
+bool BackwardSearch::fit(int tick, const Eigen::Vector3d& p_WT, double distance,
+                         const JointBox& box, JointVector& q) {
+  go_to(tick);
+  keep(problem_->link_radius + problem_->margin + distance);
+  q_ = q;
+  forward();
+  if (!free_together(p_WT, box, nullptr)) return false;
+  q = q_;
+  return true;
 }
 
 bool BackwardSearch::predict(const StepInput& input) {
@@ -53,7 +89,7 @@ bool BackwardSearch::predict(const StepInput& input) {
   chain.jacobian(pose_, chain.points() - 1, J_tip_);
   ++counters_.jacobians;
   x_dot_ = (input.p_WT_desired - pose_.tip()).head(chain.dimension()) / problem_->dt;
-  q_ = hybrid_step(input.q, JointVector::Ones(n), JointVector::Zero(n));
+  q_ = hybrid_step(input.q, JointVector::Ones(n), lean_);
   forward();
   return settings_.corrections == 0 ? q_.allFinite() : correct_tip(input);
 }
@@ -74,6 +110,10 @@ bool BackwardSearch::correct_tip(const StepInput& input) {
   const double error =
       close_tip(problem_->chain, input.p_WT_desired, problem_->dt, settings_, q_, pose_, counters_);
   return error <= problem_->tolerance;
+}
+
+bool BackwardSearch::free_together(const Eigen::Vector3d&, const JointBox&, StepOutput*) {
+  return false;
 }
 
 void BackwardSearch::forward() {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bqsa/bqsa_settings.hpp"
+#include "bqsa/joint_box.hpp"
 #include "bqsa/method.hpp"
 #include "bqsa/motion_certificate.hpp"
 
@@ -24,6 +25,15 @@ class BackwardSearch : public ReactiveMethod {
   void prepare(const Problem& problem) override;
   void step(const StepInput& input, StepOutput& output) final;
 
+  /// From now on the predictor adds the part of phi [rad/s] that does not move the tip.
+  void lean(const JointVector& phi) { lean_ = phi; }
+
+  /// Moves q [rad] by the least self-motion until it is in the box, its tip at p_WT [m], and all links
+  /// keep link radius, margin and `distance` [m] from the obstacles of that tick. False, and q as it
+  /// was, if that fails.
+  bool fit(int tick, const Eigen::Vector3d& p_WT, double distance, const JointBox& box,
+           JointVector& q);
+
  protected:
   explicit BackwardSearch(const BqsaSettings& settings) : settings_(settings) {}
 
@@ -36,6 +46,10 @@ class BackwardSearch : public ReactiveMethod {
   /// Steps 3 and 4: frees all links of q_, changing q_ and pose_, and records the clamps. If that
   /// fails, says why, with the link and the obstacle in `output`.
   virtual Infeasible free_links(const StepInput& input, StepOutput& output) = 0;
+
+  /// Step 4, all links at once (link_release.hpp): frees all links of q_ within the box, changing q_ and
+  /// pose_, and records the clamps if `output` is given. Variants without it never free links so.
+  virtual bool free_together(const Eigen::Vector3d& p_WT, const JointBox& box, StepOutput* output);
 
   /// Steps 5 and 6: whether the motion to q_, or to what the variant makes of it, is certified.
   virtual MotionCertificate::Result finish(const StepInput& input, const JointVector& q_predicted,
@@ -61,10 +75,14 @@ class BackwardSearch : public ReactiveMethod {
   HybridIkResult ik_;
 
  private:
+  enum class Way { kOneByOne, kTogether };
+  Infeasible search(const StepInput& input, const JointVector& q_predicted, Way way,
+                    StepOutput& output);
   bool predict(const StepInput& input);
 
   TaskJacobian J_tip_;  ///< at the start of the tick
   TaskVector x_dot_;    ///< [m/s]
+  JointVector lean_;    ///< [rad/s]
   int increments_left_ = 0;
 };
 

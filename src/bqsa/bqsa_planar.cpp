@@ -9,6 +9,7 @@ namespace bqsa {
 BqsaSettings default_settings(PlanarVariant variant) {
   BqsaSettings settings;
   if (variant == PlanarVariant::kPaper) {
+    settings.release = Release::kNever;
     settings.corrections = 0;
     settings.settling = 0;
   }
@@ -22,6 +23,7 @@ void BqsaPlanar::prepare(const Problem& problem) {
   }
   BackwardSearch::prepare(problem);
   obstacles_.assign(problem.obstacles, counters_, problem.link_radius + problem.margin);
+  release_.assign(problem, obstacles_, settings_, counters_);
   self_motion_.assign(problem.chain, counters_);
 }
 

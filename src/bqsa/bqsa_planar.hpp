@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bqsa/backward_search.hpp"
+#include "bqsa/link_release.hpp"
 #include "bqsa/obstacle_field.hpp"
 #include "bqsa/planar_self_motion.hpp"
 
@@ -41,6 +42,13 @@ class BqsaPlanar final : public BackwardSearch {
 
   void go_to(int tick) override { obstacles_.go_to(tick); }
   void keep(double distance) override { obstacles_.keep(distance); }
+  bool free_together(const Eigen::Vector3d& p_WT, const JointBox& box,
+                     StepOutput* output) override {
+    const JointVector q_before = q_;
+    const bool freed = release_.release(p_WT, box, q_, pose_);
+    if (freed && output) release_.record(q_before, q_, *output);
+    return freed;
+  }
   Infeasible free_links(const StepInput& input, StepOutput& output) override;
   MotionCertificate::Result finish(const StepInput& input, const JointVector& q_predicted,
                                    StepOutput& output) override;
@@ -52,6 +60,7 @@ class BqsaPlanar final : public BackwardSearch {
 
   PlanarVariant variant_;
   ObstacleField<2> obstacles_;
+  LinkRelease<2> release_;
   PlanarSelfMotion self_motion_;
   ChainPose candidate_;  ///< pose of the configuration being tried
 };

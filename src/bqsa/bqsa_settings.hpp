@@ -9,6 +9,13 @@
 
 namespace bqsa {
 
+/// When all links are freed at once (link_release.hpp), instead of one after the other.
+enum class Release {
+  kLast,   ///< where freeing one after the other fails
+  kFirst,  ///< always; one after the other where that fails
+  kNever,
+};
+
 struct BqsaSettings {
   HybridIkSettings ik;
   double increment = 2e-3;      ///< dTheta: clamping increment [rad]
@@ -17,7 +24,10 @@ struct BqsaSettings {
   int settling = 7;             ///< halvings of the last increment, between colliding and free
   double safety_offset = 1e-5;  ///< distance aimed at beyond link radius and margin, at ticks [m]
   int retries = 12;             ///< doublings of safety_offset when a motion cannot be certified
-  int corrections = 8;          ///< Newton corrections of the predictor's tip error, at most
+  Release release = Release::kLast;
+  double contact_band =
+      0.02;             ///< links this close to colliding take part when all are freed at once [m]
+  int corrections = 8;  ///< Newton corrections of the predictor's tip error, at most
   double tip_tolerance = 1e-9;  ///< tip error at which they stop [m]
   double clamped_weight = 1e4;  ///< weight of the joints that must not move (paper variant) [-]
 };

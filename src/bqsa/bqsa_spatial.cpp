@@ -5,6 +5,7 @@ namespace bqsa {
 void BqsaSpatial::prepare(const Problem& problem) {
   SpatialSearch::prepare(problem);
   obstacles_.assign(problem.obstacles, counters_, problem.link_radius + problem.margin);
+  release_.assign(problem, obstacles_, settings_, counters_);
 }
 
 /// Joints clamping: moves the arm along its self-motions until the link is free of all obstacles.

@@ -3,6 +3,7 @@
 /// 4.2).
 #pragma once
 
+#include "bqsa/link_release.hpp"
 #include "bqsa/obstacle_field.hpp"
 #include "bqsa/spatial_search.hpp"
 
@@ -30,10 +31,18 @@ class BqsaSpatial final : public SpatialSearch {
     return obstacles_.first_hit(pose_, link, from);
   }
   Infeasible free_link(const StepInput& input, const Link& link, StepOutput& output) override;
+  bool free_together(const Eigen::Vector3d& p_WT, const JointBox& box,
+                     StepOutput* output) override {
+    const JointVector q_before = q_;
+    const bool freed = release_.release(p_WT, box, q_, pose_);
+    if (freed && output) release_.record(q_before, q_, *output);
+    return freed;
+  }
 
   bool clamping_velocity(const Link& link, int obstacle, JointVector& phi);
 
   ObstacleField<3> obstacles_;
+  LinkRelease<3> release_;
   TaskJacobian J_start_, J_end_;  ///< of pose_
 };
 

@@ -59,6 +59,31 @@ int ObstacleField<Dim>::first_hit(const ChainPose& pose, const Link& link, int f
   return -1;
 }
 
+template <int Dim>
+typename ObstacleField<Dim>::Proximity ObstacleField<Dim>::proximity(const ChainPose& pose,
+                                                                     const Link& link,
+                                                                     int obstacle) const {
+  using Vector = Eigen::Matrix<double, Dim, 1>;
+  const EllipsoidN<Dim>& shape = (*this)[obstacle];
+  const Vector p1 = pose.p_WO.col(link.start).template head<Dim>();
+  const Vector p2 = pose.p_WO.col(link.end).template head<Dim>();
+  const Vector u1 = unit_point(shape, p1);
+  const Vector u2 = unit_point(shape, p2);
+  ++counters_->quadratics;
+  const double t = vertex(polar_form<double, Dim>(u1, u2));
+  const Vector u = u1 + t * (u2 - u1);
+  const Vector normal = shape.unit_map().transpose() * u;
+  const double steepness = normal.norm();
+  if (!(steepness > 0)) return {-shape.semi_axes().minCoeff(), t, Vector::Zero()};
+  const double distance = u.norm() * (u.norm() - 1) / steepness;
+  if (!tight_ || distance <= 0 || distance > distance_) {
+    return {distance, t, normal / steepness};
+  }
+  ++counters_->distance_queries;
+  const NearestPlane<Dim> plane = nearest_plane<Dim>(shape, p1, p2);
+  return {plane.distance, plane.t, plane.normal};
+}
+
 template class ObstacleField<2>;
 template class ObstacleField<3>;
 

@@ -30,6 +30,9 @@ class ObstacleField {
   /// From now on a link that is not proven to be further away than this [m] counts as hitting.
   void keep(double distance) { distance_ = distance; }
 
+  double distance() const { return distance_; }
+  int size() const { return static_cast<int>(shapes_.size()); }
+
   const EllipsoidN<Dim>& operator[](int obstacle) const {
     return shapes_[static_cast<std::size_t>(obstacle)];
   }
@@ -37,6 +40,15 @@ class ObstacleField {
   /// The first obstacle, counted from `from`, that the link hits: with which it is in category 3, 4 or
   /// 5, or from which it is not far enough away; -1 if none.
   int first_hit(const ChainPose& pose, const Link& link, int from = 0) const;
+
+  /// How link and obstacle lie to each other.
+  struct Proximity {
+    double distance;  ///< proven not to be less; not positive exactly if they meet [m]
+    double t;         ///< parameter of the link's point P(t) that is next to the obstacle
+    Eigen::Matrix<double, Dim, 1> normal;  ///< from the obstacle to that point, length 1; zero at
+                                           ///< the centre
+  };
+  Proximity proximity(const ChainPose& pose, const Link& link, int obstacle) const;
 
  private:
   bool hit(const ChainPose& pose, const Link& link, int obstacle) const;

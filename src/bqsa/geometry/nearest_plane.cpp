@@ -47,6 +47,7 @@ NearestPlane<Dim> nearest_plane(const EllipsoidN<Dim>& ellipsoid,
     if (best.planes == 0 || distance > best.distance) {
       best.distance = distance;
       best_normal = n / length;
+      best.t = t;
     }
     ++best.planes;
     const bool meet = mu == 0 && support <= 1;

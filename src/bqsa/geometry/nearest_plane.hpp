@@ -14,6 +14,7 @@ template <int Dim>
 struct NearestPlane {
   Eigen::Matrix<double, Dim, 1> normal;  ///< from the ellipsoid to the segment, frame W, length 1
   double distance = 0;  ///< least normal·(P - c) of the segment - support(normal) [m]
+  double t = 0;         ///< parameter of the segment's point that the plane was made for, in [0, 1]
   int planes = 0;       ///< tried to find it
 };
 
