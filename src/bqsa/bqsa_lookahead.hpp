@@ -11,6 +11,8 @@
 namespace bqsa {
 
 struct LookaheadSettings {
+  LookaheadSettings() { bqsa.release = Release::kFirst; }
+
   BqsaSettings bqsa;
   int horizon = 100;       ///< ticks that are imagined ahead
   int branches = 400;      ///< ways around one dead end that are tried, at most
@@ -41,17 +43,36 @@ class BqsaLookahead final : public ReactiveMethod {
   void step(const StepInput& input, StepOutput& output) override;
 
  private:
-  /// Configurations of consecutive ticks, each with how the search came to it.
-  using Plan = std::vector<StepOutput>;
+  /// Configurations of consecutive ticks, each with how the search came to it; a ring of fixed size.
+  class Plan {
+   public:
+    Plan() = default;
+    explicit Plan(int capacity) : rows_(static_cast<std::size_t>(capacity)) {}
 
-  int last_tick(const Plan& plan) const { return first_tick_ + static_cast<int>(plan.size()) - 1; }
+    void restart(int tick, const JointVector& q);
+    int first_tick() const { return first_; }
+    int last_tick() const { return last_; }
+    StepOutput& at(int tick) { return rows_[static_cast<std::size_t>(tick) % rows_.size()]; }
+    const StepOutput& at(int tick) const {
+      return rows_[static_cast<std::size_t>(tick) % rows_.size()];
+    }
+    void add(const StepOutput& output) { at(++last_) = output; }
+    void drop_first() { ++first_; }
+    void cut_after(int tick) { last_ = tick; }
+
+   private:
+    std::vector<StepOutput> rows_;
+    int first_ = 0;
+    int last_ = -1;
+  };
+
   StepInput input_after(const Plan& plan) const;
 
   bool imagine(Plan& plan, int last);
   bool spread();
   bool pull(int tick, const JointVector& q_next, JointVector& q);
   bool branch(int last);
-  bool lean(std::size_t row, const Link& link, const Eigen::Vector3d& direction, int last);
+  bool lean(int from, const Link& link, const Eigen::Vector3d& direction, int last);
 
   LookaheadSettings settings_;
   const Problem* problem_ = nullptr;
@@ -59,10 +80,11 @@ class BqsaLookahead final : public ReactiveMethod {
   std::unique_ptr<BackwardSearch> search_;
   std::unique_ptr<BackwardSearch> unhurried_search_;
   MotionCertificate certificate_;
-  Plan plan_;            ///< from where the arm is
-  int first_tick_ = 0;   ///< of the plan
-  StepOutput dead_end_;  ///< why no tick could be added to the plan
-  int hopeless_ = 0;     ///< tick that no branch could pass; 0 if none
+  WorkCounters certificate_counters_;
+  Plan plan_;                        ///< from where the arm is
+  std::vector<JointVector> pulled_;  ///< part of the plan, from its end back
+  StepOutput dead_end_;              ///< why no tick could be added to the plan
+  int hopeless_ = 0;                 ///< tick that no branch could pass; 0 if none
 };
 
 }  // namespace bqsa

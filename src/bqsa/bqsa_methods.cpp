@@ -1,8 +1,9 @@
 #include "bqsa/bqsa_methods.hpp"
 
+#include "bqsa/bqsa_lookahead.hpp"
 #include "bqsa/bqsa_planar.hpp"
 #include "bqsa/bqsa_projection.hpp"
-#include "bqsa/bqsa_spatial.hpp"
+#include "bqsa/exact_search.hpp"
 
 namespace bqsa {
 namespace {
@@ -17,11 +18,7 @@ class Bqsa final : public ReactiveMethod {
   explicit Bqsa(const BqsaSettings& settings) : settings_(settings) {}
 
   void prepare(const Problem& problem) override {
-    if (problem.dimension() == 2) {
-      variant_ = std::make_unique<BqsaPlanar>(PlanarVariant::kExact, settings_);
-    } else {
-      variant_ = std::make_unique<BqsaSpatial>(settings_);
-    }
+    variant_ = make_exact_search(problem, settings_);
     variant_->prepare(problem);
     counters_ = {};
   }
@@ -36,7 +33,7 @@ class Bqsa final : public ReactiveMethod {
   std::unique_ptr<ReactiveMethod> variant_;
 };
 
-/// `bqsa` declares the corrections besides what all variants do.
+/// What the exact variants declare: the corrections besides what all variants do.
 std::vector<ParameterDeclaration> exact_parameters() {
   const BqsaSettings defaults;
   std::vector<ParameterDeclaration> parameters = bqsa_parameters(defaults);
@@ -56,8 +53,52 @@ BqsaSettings exact_settings(const ParameterValues& values) {
   return settings;
 }
 
+/// Exact variants that can free all links at once declare when they do; the first name is the
+/// default.
+std::vector<ParameterDeclaration> releasing_parameters(std::vector<std::string> releases) {
+  std::vector<ParameterDeclaration> parameters = exact_parameters();
+  parameters.push_back(choice_parameter(
+      "release", std::move(releases),
+      "all links are freed at once: where one after the other fails, always first, or never"));
+  parameters.push_back({"contact_band", "m", BqsaSettings{}.contact_band, 0, 10,
+                        "links this close to hitting take part when all are freed at once"});
+  return parameters;
+}
+
+BqsaSettings releasing_settings(const ParameterValues& values) {
+  BqsaSettings settings = exact_settings(values);
+  const std::string& release = values.choice("release");
+  settings.release = release == "first"   ? Release::kFirst
+                     : release == "never" ? Release::kNever
+                                          : Release::kLast;
+  settings.contact_band = values.number("contact_band");
+  return settings;
+}
+
 std::unique_ptr<Method> make_exact(const ParameterValues& values) {
-  return std::make_unique<Bqsa>(exact_settings(values));
+  return std::make_unique<Bqsa>(releasing_settings(values));
+}
+
+/// `bqsa_lookahead` declares how far and how much it looks besides what `bqsa` does.
+std::vector<ParameterDeclaration> lookahead_parameters() {
+  const LookaheadSettings defaults;
+  std::vector<ParameterDeclaration> parameters = releasing_parameters({"first", "last", "never"});
+  parameters.push_back(integer_parameter("horizon", "-", defaults.horizon, 1, 100000,
+                                         "ticks that are imagined ahead"));
+  parameters.push_back(integer_parameter("branches", "-", defaults.branches, 0, 1000000,
+                                         "ways around one dead end that are tried, at most"));
+  parameters.push_back({"lean_turn", "rad", defaults.lean_turn, 1e-3, 3.15,
+                        "turn of the fastest joint that leaning one way comes to"});
+  return parameters;
+}
+
+std::unique_ptr<Method> make_lookahead(const ParameterValues& values) {
+  LookaheadSettings settings;
+  settings.bqsa = releasing_settings(values);
+  settings.horizon = values.integer("horizon");
+  settings.branches = values.integer("branches");
+  settings.lean_turn = values.number("lean_turn");
+  return std::make_unique<BqsaLookahead>(settings);
 }
 
 /// `bqsa_projection` declares the plane besides what `bqsa` does.
@@ -105,8 +146,21 @@ MethodEntry bqsa_method() {
                            .link_radius = true,
                            .margin = true,
                            .moving = true},
-          .parameters = exact_parameters(),
+          .parameters = releasing_parameters({"last", "first", "never"}),
           .make = make_exact};
+}
+
+MethodEntry bqsa_lookahead_method() {
+  return {.name = "bqsa_lookahead",
+          .summary = "backward quadratic search that looks ahead along the path, beyond the paper",
+          .source = "this project; built on the method of the entry bqsa",
+          .capabilities = {.planar = true,
+                           .spatial = true,
+                           .link_radius = true,
+                           .margin = true,
+                           .moving = true},
+          .parameters = lookahead_parameters(),
+          .make = make_lookahead};
 }
 
 MethodEntry bqsa_paper_method() {

@@ -15,4 +15,7 @@ MethodEntry bqsa_paper_method();
 /// `bqsa_projection`: in space by projections on the coordinate planes, as the paper does it.
 MethodEntry bqsa_projection_method();
 
+/// `bqsa_lookahead`: plans along the known path with the exact variants.
+MethodEntry bqsa_lookahead_method();
+
 }  // namespace bqsa

@@ -15,6 +15,18 @@ struct WorkCounters {
   std::uint64_t jacobians = 0;         ///< Jacobians of one point
   std::uint64_t linear_solves = 0;     ///< decompositions of a task matrix
   std::uint64_t iterations = 0;  ///< steps of the method's own search; BQSA: clamping increments
+
+  WorkCounters operator+(const WorkCounters& other) const {
+    WorkCounters sum = *this;
+    sum.quadratics += other.quadratics;
+    sum.point_pairs += other.point_pairs;
+    sum.distance_queries += other.distance_queries;
+    sum.kinematics += other.kinematics;
+    sum.jacobians += other.jacobians;
+    sum.linear_solves += other.linear_solves;
+    sum.iterations += other.iterations;
+    return sum;
+  }
 };
 
 }  // namespace bqsa

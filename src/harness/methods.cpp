@@ -12,6 +12,7 @@ const std::vector<MethodEntry>& methods() {
       bqsa_method(),
       bqsa_paper_method(),
       bqsa_projection_method(),
+      bqsa_lookahead_method(),
       baselines::test_point_method(),
   };
   return kMethods;
