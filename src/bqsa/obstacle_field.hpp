@@ -21,8 +21,8 @@ class ObstacleField {
   /// allocate.
   ///
   /// @param clearance  link radius and margin [m]. If there are any, a link that the quadratic
-  /// cannot
-  ///                   show to be far enough away is asked for its tight distance (nearest_plane.hpp).
+  ///                   cannot show to be far enough away is asked for its tight distance
+  ///                   (nearest_plane.hpp).
   void assign(const std::vector<Obstacle>& obstacles, WorkCounters& counters, double clearance = 0);
 
   /// From now on the obstacles are where they are at this tick. Does not allocate.

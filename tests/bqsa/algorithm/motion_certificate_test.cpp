@@ -204,7 +204,7 @@ TEST(MovingObstacles, ABulletThatCrossesALinkBetweenTwoTicksIsRefused) {
 
 TEST(MovingObstacles, NeedlesThatSpinPastARestingLinkAreMetOnTheirTrueWay) {
   // Seen from a needle that turns while it passes, the link's way bends around its tip: without the
-  // term 2 w |v| of the bound, hundreds of these needles would be certified although they hit.
+  // term 2 w |v| of the bound, some of these needles would be certified although they hit.
   Generator generator(77);
   WorkCounters counters;
   int certified = 0, sampled_free = 0, hit = 0;
