@@ -34,8 +34,8 @@ class ClosestTestPoints {
   /// From now on the obstacles are where they are at this tick. Does not allocate.
   void go_to(int tick);
 
-  /// Brute force over all pairs of test points of all links with obstacle j, at tick 0 or where `go_to`
-  /// put it. Does not allocate.
+  /// Brute force over all pairs of test points of all links with obstacle j, at tick 0 or where
+  /// `go_to` put it. Does not allocate.
   ClosestPair search(const ChainPose& pose, int obstacle) const;
 
  private:

@@ -10,8 +10,9 @@
 
 namespace bqsa {
 
-/// From the outermost moving joint inwards: turning a point that moves with speed V and acceleration A,
-/// at most `reach` from the axis, by dq adds dq² reach + 2 dq V to A and dq reach to V.
+/// From the outermost moving joint inwards: turning a point that moves with speed V and
+/// acceleration A, at most `reach` from the axis, by dq adds dq² reach + 2 dq V to A and dq reach
+/// to V.
 MotionCertificate::PointBounds MotionCertificate::bounds_of(const SerialChain& chain,
                                                             const JointVector& dq, int point) {
   PointBounds bounds{0, 0};

@@ -11,31 +11,32 @@
 
 namespace bqsa {
 
-/// Certifies motions q(s) = q0 + s (q1 - q0), s in [0, 1], of one problem's arm, while its obstacles
-/// move from one tick to the next.
+/// Certifies motions q(s) = q0 + s (q1 - q0), s in [0, 1], of one problem's arm, while its
+/// obstacles move from one tick to the next.
 ///
-/// Links are seen from the obstacle. With c(s) = c + s v its centre and R(s) its turn by the angle s w
-/// since the last tick, a point P of the arm is at
+/// Links are seen from the obstacle. With c(s) = c + s v its centre and R(s) its turn by the angle
+/// s w since the last tick, a point P of the arm is at
 ///
 ///     y(s) = R(s)ᵀ (P(s) - c(s)),   |y''| <= A = |P''| + 2 w (|P'| + |v|) + w² |P - c|,
 ///
-/// and the obstacle stands still as it was at the last tick. Over a part of the motion of length h, y
-/// stays within
+/// and the obstacle stands still as it was at the last tick. Over a part of the motion of length h,
+/// y stays within
 ///
 ///     sag = A h² / 8
 ///
-/// of the chord between its two positions at the ends of that part. So the link sweeps no more than the
-/// convex hull of its four corners, fattened by sag. Any unit coordinates u (segment_test.hpp) give a
-/// plane that supports the ellipsoid, with normal Tᵀu; it separates the hull from the ellipsoid, with
-/// `clearance` to spare, if for all four corners u_c
+/// of the chord between its two positions at the ends of that part. So the link sweeps no more than
+/// the convex hull of its four corners, fattened by sag. Any unit coordinates u (segment_test.hpp)
+/// give a plane that supports the ellipsoid, with normal Tᵀu; it separates the hull from the
+/// ellipsoid, with `clearance` to spare, if for all four corners u_c
 ///
 ///     u·u_c - |u| > (sag + clearance) |Tᵀu|.
 ///
-/// Tried are the vertices of the link's mean position and of its positions at both ends of the part; with
-/// a clearance, the mean position's nearest plane (nearest_plane.hpp) too. Where all fail, the part is
-/// halved, up to 2^-12 of the motion. Without clearance the proof needs no distance query. What it
-/// certifies is free (to rounding, about 1e-15 of the lengths in play); what it does not certify may be
-/// free all the same, when a link slides along an obstacle closer than about 1e-7 of its length.
+/// Tried are the vertices of the link's mean position and of its positions at both ends of the
+/// part; with a clearance, the mean position's nearest plane (nearest_plane.hpp) too. Where all
+/// fail, the part is halved, up to 2^-12 of the motion. Without clearance the proof needs no
+/// distance query. What it certifies is free (to rounding, about 1e-15 of the lengths in play);
+/// what it does not certify may be free all the same, when a link slides along an obstacle closer
+/// than about 1e-7 of its length.
 class MotionCertificate {
  public:
   /// @param clearance  distance that the links' axes must keep from every obstacle: link radius and
@@ -49,8 +50,8 @@ class MotionCertificate {
     int obstacle = -1;  ///< its obstacle, else -1
   };
 
-  /// The motion from q0 at the tick before `tick` to q1 at `tick`; of obstacles that move, `tick` is one
-  /// of 1 .. ticks. Does not allocate.
+  /// The motion from q0 at the tick before `tick` to q1 at `tick`; of obstacles that move, `tick`
+  /// is one of 1 .. ticks. Does not allocate.
   Result certify(int tick, const JointVector& q0, const JointVector& q1);
 
  private:

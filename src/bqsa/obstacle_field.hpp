@@ -20,8 +20,9 @@ class ObstacleField {
   /// Quadratics and distance queries are counted in `counters`, which must outlive the field. May
   /// allocate.
   ///
-  /// @param clearance  link radius and margin [m]. If there are any, a link that the quadratic cannot
-  ///                   show to be far enough away is asked for its tight distance (nearest_plane.hpp).
+  /// @param clearance  link radius and margin [m]. If there are any, a link that the quadratic
+  ///                   cannot show to be far enough away is asked for its tight distance
+  ///                   (nearest_plane.hpp).
   void assign(const std::vector<Obstacle>& obstacles, WorkCounters& counters, double clearance = 0);
 
   /// From now on the obstacles are where they are at this tick. Does not allocate.
@@ -37,8 +38,8 @@ class ObstacleField {
     return shapes_[static_cast<std::size_t>(obstacle)];
   }
 
-  /// The first obstacle, counted from `from`, that the link hits: with which it is in category 3, 4 or
-  /// 5, or from which it is not far enough away; -1 if none.
+  /// The first obstacle, counted from `from`, that the link hits: with which it is in category 3, 4
+  /// or 5, or from which it is not far enough away; -1 if none.
   int first_hit(const ChainPose& pose, const Link& link, int from = 0) const;
 
   /// How link and obstacle lie to each other.

@@ -1,6 +1,6 @@
 /// @file
-/// Where a moving obstacle is between two ticks, for dense sampling. By quaternions, so that it shares
-/// nothing with the rotation vectors of what it checks.
+/// Where a moving obstacle is between two ticks, for dense sampling. By quaternions, so that it
+/// shares nothing with the rotation vectors of what it checks.
 #pragma once
 
 #include <Eigen/Geometry>

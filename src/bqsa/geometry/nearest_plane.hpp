@@ -18,9 +18,9 @@ struct NearestPlane {
   int planes = 0;       ///< tried to find it
 };
 
-/// Of all planes that support the ellipsoid, the one furthest from the segment from p1 to p2. Whatever
-/// the normal, `distance` is a lower bound of the distance of segment and solid ellipsoid, to rounding;
-/// of this plane it is the distance itself.
+/// Of all planes that support the ellipsoid, the one furthest from the segment from p1 to p2.
+/// Whatever the normal, `distance` is a lower bound of the distance of segment and solid ellipsoid,
+/// to rounding; of this plane it is the distance itself.
 ///
 /// With x the segment's point, seen in the ellipsoid's axes, duality turns the distance d into the
 /// largest value over mu >= 0 of a concave function that is once more the quadratic of
@@ -29,12 +29,13 @@ struct NearestPlane {
 ///     d² = max_mu  mu (min_t sum_i x_i(t)² / (a_i² + mu) - 1).
 ///
 /// Its derivative, with t* the clamped vertex for this mu, is sum_i a_i² n_i² - 1 with the normal
-/// n_i = x_i(t*) / (a_i² + mu). At mu = 0 this is the plane of `separation`; from there Newton's method
-/// on 1 / sqrt(sum_i a_i² n_i²) = 1, inside a bracket, finds the root: after 5 planes on average, 18 at most in the tests.
+/// n_i = x_i(t*) / (a_i² + mu). At mu = 0 this is the plane of `separation`; from there Newton's
+/// method on 1 / sqrt(sum_i a_i² n_i²) = 1, inside a bracket, finds the root: after 5 planes on
+/// average, 30 at most in the tests.
 ///
-/// In the tests it falls short of the distance by at most 4e-15 of the lengths in play: needles, sheets,
-/// blades and balls of axis ratios up to 1e5, links of zero length, far away and near contact. A search
-/// that would end without convergence would cost tightness only.
+/// In the tests it falls short of the distance by at most 4e-15 of the lengths in play: needles,
+/// sheets, blades and balls of axis ratios up to 1e5, links of zero length, far away and near
+/// contact. A search that would end without convergence would cost tightness only.
 ///
 /// If they meet, distance is not positive, and the plane is that of `separation`.
 ///

@@ -59,8 +59,8 @@ struct RunOptions {
 /// @throws InputError for the latter
 Status run_command(const RunOptions& options, const Console& console);
 
-/// Prints the methods, the families and the scenarios `*.yaml` of a directory. An empty directory name stands for
-/// ./scenarios, which may be missing.
+/// Prints the methods, the families and the scenarios `*.yaml` of a directory. An empty directory
+/// name stands for ./scenarios, which may be missing.
 Status list_command(const std::filesystem::path& scenarios, const Console& console);
 
 /// Prints table or summary of a results directory; lines that are not records are reported and left

@@ -203,8 +203,8 @@ TEST(MovingObstacles, ABulletThatCrossesALinkBetweenTwoTicksIsRefused) {
 }
 
 TEST(MovingObstacles, NeedlesThatSpinPastARestingLinkAreMetOnTheirTrueWay) {
-  // Seen from a needle that turns while it passes, the link's way bends around its tip: without the term
-  // 2 w |v| of the bound, hundreds of these needles would be certified although they hit.
+  // Seen from a needle that turns while it passes, the link's way bends around its tip: without the
+  // term 2 w |v| of the bound, some of these needles would be certified although they hit.
   Generator generator(77);
   WorkCounters counters;
   int certified = 0, sampled_free = 0, hit = 0;
@@ -241,8 +241,8 @@ TEST(MovingObstacles, NeedlesThatSpinPastARestingLinkAreMetOnTheirTrueWay) {
 }
 
 TEST(MovingObstacles, OnlyTheRelativeMotionCounts) {
-  // An arm that turns about z by w, and an obstacle with its centre on that axis that turns by -w: the
-  // same relative motion. Both turning by w is rest.
+  // An arm that turns about z by w, and an obstacle with its centre on that axis that turns by -w:
+  // the same relative motion. Both turning by w is rest.
   ChainDescription arm;
   arm.rows = {{0.3, 0.3, 0.5, 0}, {0.4, 1.2, 0.1, 0.3}, {0.3, -0.5, 0.2, 0.2}};
   Problem at_rest{.name = "relative", .chain = SerialChain(arm)};

@@ -125,18 +125,20 @@ TEST_P(Families, TipPathsAreClear) {
   for (int index = 0; index < kScenarios; ++index) {
     const Problem problem = tracked(index).problem;
     for (const Obstacle& obstacle : problem.obstacles) {
-      double least = 1;
+      double least = 1, to_hull = 1;
       for (int tick = 0; tick <= problem.ticks; ++tick) {
         const int samples = obstacle.moves() ? 1 : 5;
         for (int k = 0; k < samples; ++k) {
           const double t = problem.time(tick) + problem.dt * k / samples;
           const Vector3d p = problem.desired_tip(t);
-          least = std::min(least, distance(p, p, obstacle.at(tick), 0.2));
+          const Ellipsoid& shape = obstacle.at(tick);
+          least = std::min(least, distance(p, p, shape, 0.03));
+          to_hull = std::min(to_hull, (p - shape.center()).norm() - shape.semi_axes().maxCoeff());
         }
       }
       // Between ticks an arc is beside the line that was tested.
       EXPECT_GE(least, 0.020 - (obstacle.moves() ? kRounding : 1e-4)) << index;
-      near += least < 0.2;
+      near += to_hull < 0.2;
     }
   }
   EXPECT_GE(near, 5);
@@ -195,7 +197,9 @@ TEST_P(Families, PathsStayInTheirShell) {
     EXPECT_GE(least, 0.2 * reach - 1e-4) << index;
     const bool stretched = GetParam() == "singular";
     EXPECT_LE(most, (stretched ? 0.995 : 0.95) * reach + 1e-4) << index;
-    if (stretched) EXPECT_GE(most, 0.97 * reach - 1e-4) << index;
+    if (stretched) {
+      EXPECT_GE(most, 0.97 * reach - 1e-4) << index;
+    }
     farthest_of_all = std::max(farthest_of_all, most / reach);
   }
   EXPECT_GT(farthest_of_all, 0.8);

@@ -95,6 +95,10 @@ TEST(NominalMotion, ThePathStaysInAShell) {
 TEST(NominalMotion, TracksWithinToleranceAndSteps) {
   EXPECT_TRUE(NominalMotion(bent_arm(0.1)).tracks());
 
+  Problem exacting = bent_arm(0.1);
+  exacting.tolerance = 1e-9;
+  EXPECT_FALSE(NominalMotion(exacting).tracks());
+
   Problem out_of_reach = bent_arm(0);
   out_of_reach.desired_tip = [](double t) -> Eigen::Vector3d { return {1.5 + 2 * t, 0.5, 0}; };
   EXPECT_FALSE(NominalMotion(out_of_reach).tracks());

@@ -132,7 +132,7 @@ TEST(ScenarioDraft, PlanarProblemIsThatOfItsFile) {
 }
 
 TEST(ScenarioDraft, SpatialProblemIsThatOfItsFile) {
-  ScenarioDraft draft{.name = "drafted", .description = "three"};
+  ScenarioDraft draft{.name = "drafted", .description = "three", .robot = {}};
   draft.robot.convention = DhConvention::kModified;
   draft.robot.rows = {{0, 0, 0.3, 0.1}, {0.05, -1.5707963267948966, 0, 0}, {0.4, 0, 0.1, -0.2}};
   draft.robot.p_LT = {0.3, 0, 0.05};
