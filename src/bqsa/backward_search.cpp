@@ -8,7 +8,7 @@ void BackwardSearch::prepare(const Problem& problem) {
   problem_ = &problem;
   counters_ = {};
   lean_ = JointVector::Zero(problem.chain.joints());
-  certificate_.assign(problem, problem.link_radius + problem.margin, counters_);
+  certificate_.assign(problem, counters_);
 }
 
 void BackwardSearch::step(const StepInput& input, StepOutput& output) {

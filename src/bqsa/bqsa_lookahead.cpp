@@ -41,7 +41,7 @@ void BqsaLookahead::prepare(const Problem& problem) {
   search_->prepare(problem);
   unhurried_search_ = make_exact_search(problem, settings_.bqsa);
   unhurried_search_->prepare(*unhurried_);
-  certificate_.assign(problem, problem.link_radius + problem.margin, certificate_counters_);
+  certificate_.assign(problem, certificate_counters_);
   plan_ = Plan(settings_.horizon + 1);
   pulled_.reserve(static_cast<std::size_t>(settings_.horizon) + 1);
   hopeless_ = 0;

@@ -7,6 +7,7 @@
 
 #include "bqsa/geometry/nearest_plane.hpp"
 #include "bqsa/geometry/segment_test.hpp"
+#include "bqsa/geometry/separation.hpp"
 
 namespace bqsa {
 
@@ -35,9 +36,9 @@ MotionCertificate::Motion MotionCertificate::motion_of(const Ellipsoid& from, co
   return motion;
 }
 
-void MotionCertificate::assign(const Problem& problem, double clearance, WorkCounters& counters) {
+void MotionCertificate::assign(const Problem& problem, WorkCounters& counters) {
   problem_ = &problem;
-  clearance_ = clearance;
+  clearance_ = problem.link_radius + problem.margin;
   counters_ = &counters;
   const std::size_t all = problem.chain.links().size() * problem.obstacles.size();
   pairs_.reserve(all * (kMaxHalvings + 2));
@@ -61,15 +62,32 @@ MotionCertificate::Result MotionCertificate::certify(int tick, const JointVector
     assert(0 < tick && static_cast<std::size_t>(tick) < obstacle.motion.size());
     motions_[j] = motion_of(obstacle.at(tick - 1), obstacle.at(tick));
   }
-  pairs_.clear();
-  for (int i = 0; i < static_cast<int>(chain.links().size()); ++i) {
-    for (int j = 0; j < static_cast<int>(problem_->obstacles.size()); ++j) pairs_.push_back({i, j});
-  }
   ChainPose pose0, pose1;
   chain.forward(q0, pose0);
   chain.forward(q1, pose1);
   counters_->kinematics += 2;
+  pairs_.clear();
+  for (int i = 0; i < static_cast<int>(chain.links().size()); ++i) {
+    const Link& link = chain.links()[static_cast<std::size_t>(i)];
+    for (int j = 0; j < static_cast<int>(problem_->obstacles.size()); ++j) {
+      pairs_.push_back({i, j, clearance_of(link, j, pose0)});
+    }
+  }
   return certify({0, 1, pose0, pose1}, 0, 0);
+}
+
+double MotionCertificate::clearance_of(const Link& link, int obstacle,
+                                       const ChainPose& start) const {
+  if (!(problem_->margin > 0)) return clearance_;
+  constexpr double kSlack = 1e-3;
+  const Ellipsoid& shape = *motions_[static_cast<std::size_t>(obstacle)].shape;
+  const Eigen::Vector3d p1 = start.p_WO.col(link.start);
+  const Eigen::Vector3d p2 = start.p_WO.col(link.end);
+  ++counters_->quadratics;
+  if (separation<3>(shape, p1, p2) > clearance_) return clearance_;
+  ++counters_->distance_queries;
+  const double distance = nearest_plane<3>(shape, p1, p2).distance;
+  return std::clamp((1 - kSlack) * distance, problem_->link_radius, clearance_);
 }
 
 MotionCertificate::Result MotionCertificate::certify(const Part& part, std::size_t first_pair,
@@ -130,7 +148,7 @@ bool MotionCertificate::separated(const Part& part, const Pair& pair) const {
                             0.5 * h * speed;
     acceleration += 2 * motion.angle * speed + motion.angle * motion.angle * furthest;
   }
-  const double room = h * h / 8 * acceleration + clearance_;
+  const double room = h * h / 8 * acceleration + pair.clearance;
 
   const auto unit = [&shape](const Eigen::Vector3d& y) {
     return unit_point<double, 3>(shape.unit_map(), Eigen::Vector3d::Zero(), y);
@@ -147,7 +165,7 @@ bool MotionCertificate::separated(const Part& part, const Pair& pair) const {
       plane_of(start1, end1)) {
     return true;
   }
-  if (!(clearance_ > 0)) return false;
+  if (!(pair.clearance > 0)) return false;
 
   ++counters_->distance_queries;
   const Eigen::Vector3d n = nearest_plane<3>(shape, shape.center() + 0.5 * (y_start0 + y_start1),

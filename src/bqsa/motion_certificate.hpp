@@ -39,10 +39,11 @@ namespace bqsa {
 /// than about 1e-7 of its length.
 class MotionCertificate {
  public:
-  /// @param clearance  distance that the links' axes must keep from every obstacle: link radius and
-  ///                   margin [m]
-  /// Problem and counters must outlive the certificate. May allocate.
-  void assign(const Problem& problem, double clearance, WorkCounters& counters);
+  /// The links' axes must keep link radius and margin of the problem. Where a motion starts closer
+  /// than that, as sensors or an obstacle on the move may have it, it must keep the radius and come
+  /// no closer than it started, to 0.1 %. Problem and counters must outlive the certificate. May
+  /// allocate.
+  void assign(const Problem& problem, WorkCounters& counters);
 
   struct Result {
     bool certified = true;
@@ -61,6 +62,7 @@ class MotionCertificate {
   struct Pair {
     int link;  ///< index into SerialChain::links
     int obstacle;
+    double clearance;  ///< to be kept [m]
   };
   struct Part {
     double s0, s1;
@@ -85,11 +87,12 @@ class MotionCertificate {
   static Motion motion_of(const Ellipsoid& from, const Ellipsoid& to);
   static PointBounds bounds_of(const SerialChain& chain, const JointVector& dq, int point);
 
+  double clearance_of(const Link& link, int obstacle, const ChainPose& start) const;
   Result certify(const Part& part, std::size_t first_pair, int halvings);
   bool separated(const Part& part, const Pair& pair) const;
 
   const Problem* problem_ = nullptr;
-  double clearance_ = 0;
+  double clearance_ = 0;     ///< link radius and margin [m]
   std::vector<Pair> pairs_;  ///< a stack: the pairs still open on each level of halving
   JointVector q0_, dq_;
   std::array<PointBounds, kMaxPoints> bounds_{};

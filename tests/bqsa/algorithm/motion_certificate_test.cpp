@@ -53,12 +53,32 @@ Ellipsoid moved(const Ellipsoid& shape, const Eigen::Vector3d& way, double angle
           Eigen::AngleAxisd(angle, axis).toRotationMatrix() * shape.rotation()};
 }
 
-MotionCertificate::Result certify(const Problem& problem, const JointVector& q0,
-                                  const JointVector& q1, WorkCounters& counters,
-                                  double clearance = 0, int tick = 1) {
+MotionCertificate::Result certify(Problem problem, const JointVector& q0, const JointVector& q1,
+                                  WorkCounters& counters, double clearance = 0, int tick = 1) {
   MotionCertificate certificate;
-  certificate.assign(problem, clearance, counters);
+  problem.link_radius = clearance;
+  certificate.assign(problem, counters);
   return certificate.certify(tick, q0, q1);
+}
+
+TEST(MotionCertificate, AMotionThatStartsInsideTheMarginMustNotComeCloser) {
+  Problem problem{.name = "inside", .chain = SerialChain(planar_chain({1.0}))};
+  problem.obstacles = {{"post", Ellipsoid({0.5, 0.1, 0}, Eigen::Vector3d::Constant(0.09))}};
+  problem.margin = 0.02;
+  // At angle 0 the link is 10 mm from the post, and at -0.05 it is 34 mm away.
+  const auto certified = [&problem](double from, double to) {
+    WorkCounters counters;
+    MotionCertificate certificate;
+    certificate.assign(problem, counters);
+    const auto at = [](double angle) { return JointVector(JointVector::Constant(1, angle)); };
+    return certificate.certify(1, at(from), at(to)).certified;
+  };
+  EXPECT_TRUE(certified(0, -0.01)) << "away";
+  EXPECT_FALSE(certified(0, 0.001)) << "closer";
+  EXPECT_FALSE(certified(-0.05, -0.01)) << "into the margin";
+  EXPECT_TRUE(certified(-0.01, -0.05)) << "out of the margin";
+  problem.link_radius = 0.011;
+  EXPECT_FALSE(certified(0, -0.01)) << "the radius is no margin";
 }
 
 TEST(MotionCertificate, WhatItCertifiesKeepsItsClearanceInDenseSamples) {
@@ -66,10 +86,11 @@ TEST(MotionCertificate, WhatItCertifiesKeepsItsClearanceInDenseSamples) {
   WorkCounters counters;
   int certified = 0, sampled_free = 0, refused_hits = 0;
   for (int trial = 0; trial < 600; ++trial) {
-    const Problem problem = random_problem(generator, trial % 2 == 0);
+    Problem problem = random_problem(generator, trial % 2 == 0);
     const double clearance = trial % 3 == 0 ? 0.01 : 0;
+    problem.link_radius = clearance;
     MotionCertificate certificate;
-    certificate.assign(problem, clearance, counters);
+    certificate.assign(problem, counters);
     const int n = problem.chain.joints();
     const JointVector q0 = random_joints(generator, n, 2);
     const JointVector q1 = q0 + random_joints(generator, n, log_uniform(generator, 1e-3, 1));
@@ -97,7 +118,7 @@ TEST(MotionCertificate, RefusesAMotionThatTunnelsThroughAThinSheet) {
   problem.obstacles = {{"sheet", Ellipsoid({0.9, 0, 0}, {0.3, 1e-4, 0.3})}};
   WorkCounters counters;
   MotionCertificate certificate;
-  certificate.assign(problem, 0, counters);
+  certificate.assign(problem, counters);
   JointVector below(1), above(1), further(1);
   below << -0.02;
   above << 0.02;
@@ -117,7 +138,7 @@ TEST(MotionCertificate, SeesTheArcBeyondTheChord) {
   problem.obstacles = {{"ball", Ellipsoid({0.9, 0, 0}, {0.05, 0.05, 0.05})}};
   WorkCounters counters;
   MotionCertificate certificate;
-  certificate.assign(problem, 0, counters);
+  certificate.assign(problem, counters);
   const double eighth = std::numbers::pi / 4;
   EXPECT_FALSE(
       certificate.certify(1, JointVector::Constant(1, -eighth), JointVector::Constant(1, eighth))
@@ -129,7 +150,7 @@ TEST(MotionCertificate, CertifiesAWithdrawalFromContact) {
   problem.obstacles = {{"ball", Ellipsoid({0.6, 0.05 + 1e-6, 0}, {0.05, 0.05, 0.05})}};
   WorkCounters counters;
   MotionCertificate certificate;
-  certificate.assign(problem, 0, counters);
+  certificate.assign(problem, counters);
   const JointVector near = JointVector::Zero(1), away = JointVector::Constant(1, -0.2);
   EXPECT_TRUE(certificate.certify(1, near, away).certified);
   EXPECT_TRUE(certificate.certify(1, away, near).certified);
@@ -302,7 +323,8 @@ TEST(MovingObstacles, WarmCertificatesDoNotAllocate) {
       obstacle.motion = {obstacle.shape, moved(obstacle.shape, Eigen::Vector3d(0.1, 0.1, 0), 0.5)};
     }
     MotionCertificate certificate;
-    certificate.assign(problem, 0.01, counters);
+    problem.link_radius = 0.01;
+    certificate.assign(problem, counters);
     const JointVector q0 = random_joints(generator, problem.chain.joints(), 2);
     const JointVector q1 = q0 + random_joints(generator, problem.chain.joints(), 0.1);
     const test_support::AllocationGuard guard;
@@ -319,7 +341,7 @@ TEST(MotionCertificate, CertifiesAnythingWithoutObstacles) {
   Problem problem{.name = "empty", .chain = SerialChain(planar_chain({1.0, 1.0}))};
   WorkCounters counters;
   MotionCertificate certificate;
-  certificate.assign(problem, 0, counters);
+  certificate.assign(problem, counters);
   EXPECT_TRUE(certificate.certify(1, JointVector::Zero(2), JointVector::Ones(2)).certified);
 }
 
