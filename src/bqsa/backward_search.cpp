@@ -61,7 +61,10 @@ Infeasible BackwardSearch::search(const StepInput& input, const JointVector& q_p
     motion = finish(input, q_predicted, output);  // 5, 6
     if (motion.certified) {
       output.q = q_;
-      output.state = output.clamp_count > 0 ? TickState::kClamped : TickState::kFree;
+      const double tip_error = (input.p_WT_desired - pose_.tip()).norm();
+      output.state = tip_error > problem_->tolerance ? TickState::kUnclaimed
+                     : output.clamp_count > 0        ? TickState::kClamped
+                                                     : TickState::kFree;
       return Infeasible::kNot;
     }
   }
