@@ -171,6 +171,8 @@ void declare(CLI::App& app, CommandLine& line) {
       ->required();
   generate->add_option("--robots", line.generate.robots,
                        "Directory of robot files, for families with spatial arms [./robots]");
+  generate->add_flag("--witnesses", line.generate.witnesses,
+                     "Write a solution beside each scenario too, FILE.witness.csv, for judge");
   generate->callback([&line] {
     line.command = [&line](const Console& console) {
       return generate_command(line.generate, console);
