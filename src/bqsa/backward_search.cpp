@@ -50,7 +50,7 @@ Infeasible BackwardSearch::search(const StepInput& input, const JointVector& q_p
     forward();
     const Infeasible reason = way == Way::kOneByOne ? free_links(input, output)
                               : free_together(input.p_WT_desired, box, &output)
-                                  ? Infeasible::kNot
+                                  ? forbidden_step(*problem_, input.q, q_)
                                   : Infeasible::kNoFreeConfiguration;
     if (reason != Infeasible::kNot) {
       if (!motion.certified) break;
