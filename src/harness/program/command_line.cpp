@@ -180,7 +180,8 @@ void declare(CLI::App& app, CommandLine& line) {
   });
 
   CLI::App* validate = add_command(app, "validate", "Check scenario files without running");
-  validate->add_option("FILE", line.files, "Scenario files")->required();
+  validate->add_option("FILE", line.files, "Scenario files, or directories with files *.yaml")
+      ->required();
   validate->callback([&line] {
     line.command = [&line](const Console& console) {
       return validate_command(line.files, console);

@@ -97,7 +97,8 @@ struct GenerateOptions {
 /// others it is not overwritten, and nothing is written after it.
 Status generate_command(const GenerateOptions& options, const Console& console);
 
-/// Says of each scenario file whether it can be used.
-Status validate_command(const std::vector<std::filesystem::path>& files, const Console& console);
+/// Says of each scenario file, those in directories included, whether it can be used.
+/// @throws InputError for a directory that cannot be listed or holds none
+Status validate_command(const std::vector<std::filesystem::path>& named, const Console& console);
 
 }  // namespace bqsa::harness
