@@ -50,7 +50,7 @@ Infeasible BackwardSearch::search(const StepInput& input, const JointVector& q_p
     forward();
     const Infeasible reason = way == Way::kOneByOne ? free_links(input, output)
                               : free_together(input.p_WT_desired, box, &output)
-                                  ? Infeasible::kNot
+                                  ? forbidden_step(*problem_, input.q, q_)
                                   : Infeasible::kNoFreeConfiguration;
     if (reason != Infeasible::kNot) {
       if (!motion.certified) break;
@@ -61,7 +61,10 @@ Infeasible BackwardSearch::search(const StepInput& input, const JointVector& q_p
     motion = finish(input, q_predicted, output);  // 5, 6
     if (motion.certified) {
       output.q = q_;
-      output.state = output.clamp_count > 0 ? TickState::kClamped : TickState::kFree;
+      const double tip_error = (input.p_WT_desired - pose_.tip()).norm();
+      output.state = tip_error > problem_->tolerance ? TickState::kUnclaimed
+                     : output.clamp_count > 0        ? TickState::kClamped
+                                                     : TickState::kFree;
       return Infeasible::kNot;
     }
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <stdexcept>
 
 #include "bqsa/exact_search.hpp"
 
@@ -10,7 +11,6 @@ namespace bqsa {
 namespace {
 
 constexpr double kUnhurriedStep = 1.0;  // largest joint step without hurry [rad]
-constexpr double kSamePlace = 1e-9;     // joint angles this close are where the plan says [rad]
 constexpr int kFirstLead = 4;           // ticks before a dead end at which a branch starts
 constexpr int kPastDeadEnd = 5;         // ticks by which a branch must pass it
 constexpr int kMaxBranchings = 16;      // dead ends that one tick may get past
@@ -31,6 +31,9 @@ std::vector<Eigen::Vector3d> directions_across(const Eigen::Vector3d& along, int
 BqsaLookahead::BqsaLookahead(const LookaheadSettings& settings) : settings_(settings) {}
 
 void BqsaLookahead::prepare(const Problem& problem) {
+  if (!problem.desired_tip || problem.ticks < 1) {
+    throw std::invalid_argument("looking ahead needs a path");
+  }
   problem_ = &problem;
   counters_ = {};
   certificate_counters_ = {};
@@ -42,27 +45,26 @@ void BqsaLookahead::prepare(const Problem& problem) {
   unhurried_search_ = make_exact_search(problem, settings_.bqsa);
   unhurried_search_->prepare(*unhurried_);
   certificate_.assign(problem, certificate_counters_);
-  plan_ = Plan(settings_.horizon + 1);
-  pulled_.reserve(static_cast<std::size_t>(settings_.horizon) + 1);
+  const int horizon = std::min(settings_.horizon, problem.ticks);
+  plan_ = Plan(horizon + 1);
+  pulled_.reserve(static_cast<std::size_t>(horizon) + 1);
   hopeless_ = 0;
 }
 
 void BqsaLookahead::step(const StepInput& input, StepOutput& output) {
   const int now = input.tick - 1;
-  const bool as_planned = plan_.first_tick() == now && plan_.last_tick() >= now &&
-                          (plan_.at(now).q - input.q).cwiseAbs().maxCoeff() <= kSamePlace;
-  if (!as_planned) {
+  if (leads_on(now, input.q)) {
+    plan_.at(now).q = input.q;
+  } else {
     plan_.restart(now, input.q);
     hopeless_ = 0;
   }
   const int last = std::min(now + settings_.horizon, problem_->ticks);
-  for (int branchings = 0; !imagine(plan_, last); ++branchings) {  // 1
-    const int dead_tick = plan_.last_tick() + 1;
-    if (dead_tick == hopeless_) break;
-    if (spread()) continue;                                     // 2
-    if (branchings < kMaxBranchings && branch(last)) continue;  // 3
-    hopeless_ = dead_tick;
-    break;
+  int branchings = 0;
+  while (plan_.last_tick() + 1 != hopeless_ && !imagine(plan_, last)) {  // 1
+    if (spread()) continue;                                              // 2
+    if (branchings++ == kMaxBranchings) break;
+    if (!branch(last)) hopeless_ = plan_.last_tick() + 1;  // 3
   }
   if (plan_.last_tick() == now) {
     hold(input.q, dead_end_.reason, dead_end_.link, dead_end_.obstacle, output);
@@ -77,6 +79,16 @@ void BqsaLookahead::Plan::restart(int tick, const JointVector& q) {
   first_ = last_ = tick;
   at(tick) = {};
   at(tick).q = q;
+}
+
+/// Whether the arm, at q [rad] at tick `now`, can follow the plan.
+bool BqsaLookahead::leads_on(int now, const JointVector& q) {
+  if (plan_.first_tick() != now || plan_.last_tick() < now) return false;
+  if (plan_.at(now).q == q) return true;
+  if (plan_.last_tick() == now) return false;
+  const JointVector& q_next = plan_.at(now + 1).q;
+  return forbidden_step(*problem_, q, q_next) == Infeasible::kNot &&
+         certificate_.certify(now + 1, q, q_next).certified;
 }
 
 /// The input of the tick after the plan's last.
@@ -136,7 +148,10 @@ bool BqsaLookahead::pull(int tick, const JointVector& q_next, JointVector& q) {
   for (int attempt = 0; attempt <= settings_.bqsa.retries; ++attempt, distance *= 2) {
     q = q_before;
     if (!search_->fit(tick, p_WT, distance, box, q)) return false;
-    if (certificate_.certify(tick + 1, q, q_next).certified) return true;
+    if (forbidden_step(*problem_, q, q_next) == Infeasible::kNot &&
+        certificate_.certify(tick + 1, q, q_next).certified) {
+      return true;
+    }
   }
   return false;
 }

@@ -34,12 +34,21 @@ struct LookaheadSettings {
 ///
 /// The quadratics and certificates are those of the reactive search; nothing is drawn at random. A tick
 /// is infeasible only when the plan has come to its end. If the arm is not where it was planned to be,
-/// a new plan is made from where it is.
+/// the plan is kept if its next configuration can be reached all the same, certified; otherwise a new
+/// plan is made from where the arm is, at the cost of imagining the whole horizon in one tick. So a
+/// tick that only moves on costs as much as a reactive one, one that plans up to `horizon` times as
+/// much, and one at a dead end up to `branches` times that: times of this method are means, not bounds.
+///
+/// The path is the problem's; StepInput::p_WT_desired is not looked at. Of configurations moved by 2, the
+/// clamps reported are those with which they were first imagined.
 class BqsaLookahead final : public ReactiveMethod {
  public:
   explicit BqsaLookahead(const LookaheadSettings& settings = {});
 
+  /// @throws std::invalid_argument if the problem has no path
   void prepare(const Problem& problem) override;
+
+  /// Does not allocate, but at dead ends.
   void step(const StepInput& input, StepOutput& output) override;
 
  private:
@@ -68,6 +77,7 @@ class BqsaLookahead final : public ReactiveMethod {
 
   StepInput input_after(const Plan& plan) const;
 
+  bool leads_on(int now, const JointVector& q);
   bool imagine(Plan& plan, int last);
   bool spread();
   bool pull(int tick, const JointVector& q_next, JointVector& q);

@@ -136,6 +136,7 @@ MotionCertificate::Result BqsaPlanar::finish(const StepInput& input, const Joint
     }
     output.guard_fired = true;
     q_ = q_clamped;
+    forward();
   }
   return certificate_.certify(input.tick, input.q, q_);
 }

@@ -9,14 +9,27 @@ namespace bqsa {
 namespace {
 
 constexpr int kMaxIterations = 40;
-constexpr int kSweeps = 60;  // of Gauss-Seidel
-constexpr double kLargestStep =
-    0.1;                          // joint step of one iteration beyond which it is cut back [rad]
+constexpr int kSweeps = 60;           // of Gauss-Seidel
+constexpr double kLargestStep = 0.1;  // of a joint in one iteration; beyond, it is cut back [rad]
 constexpr double kBoxBand = 0.1;  // joints this close to the end of their interval take part [rad]
 constexpr double kBeyond = 1e-9;  // into the interval, so that the end is passed [rad]
 constexpr double kVanishing = 1e-6;  // share of a gradient that the self-motions must leave
 
 }  // namespace
+
+JointVector least_motion(int joints, std::span<Contact> contacts) {
+  JointVector dq = JointVector::Zero(joints);
+  for (Contact& contact : contacts) contact.lambda = 0;
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (Contact& contact : contacts) {
+      const double more = (contact.missing - contact.a.dot(dq)) / contact.a.squaredNorm();
+      const double lambda = std::max(0.0, contact.lambda + more);
+      dq += (lambda - contact.lambda) * contact.a;
+      contact.lambda = lambda;
+    }
+  }
+  return dq;
+}
 
 template <int Dim>
 void LinkRelease<Dim>::assign(const Problem& problem, const ObstacleField<Dim>& obstacles,
@@ -32,21 +45,24 @@ bool LinkRelease<Dim>::release(const Eigen::Vector3d& p_WT, const JointBox& box,
                                ChainPose& pose) {
   pushed_count_ = 0;
   iterations_ = 0;
+  const auto tip_in_place = [&] {
+    return close_tip(problem_->chain, p_WT, problem_->dt, *settings_, q, pose, *counters_) <=
+           problem_->tolerance;
+  };
+  if (!tip_in_place()) return false;
   if (box.contains(q) && all_free(pose)) return true;
   while (!gather(pose, box, q)) {
     if (iterations_ == kMaxIterations) return false;
     ++iterations_;
     ++counters_->iterations;
-    const JointVector dq = least_motion();
+    const JointVector dq = least_motion(problem_->chain.joints(), {contacts_.data(), count_});
     const double largest = dq.cwiseAbs().maxCoeff();
     if (!(largest > 0)) return false;
     remember_pushed();
     q += std::min(1.0, kLargestStep / largest) * dq;
     problem_->chain.forward(q, pose);
     ++counters_->kinematics;
-    const double error =
-        close_tip(problem_->chain, p_WT, problem_->dt, *settings_, q, pose, *counters_);
-    if (!(error <= problem_->tolerance)) return false;
+    if (!tip_in_place()) return false;
   }
   return true;
 }
@@ -58,35 +74,35 @@ bool LinkRelease<Dim>::all_free(const ChainPose& pose) const {
   });
 }
 
-/// The contacts of the pose. True if all keep their distance.
+/// The contacts of the pose, and whether all links keep their distance and all joints are in the box.
 template <int Dim>
 bool LinkRelease<Dim>::gather(const ChainPose& pose, const JointBox& box, const JointVector& q) {
   count_ = 0;
-  TaskJacobian J_start, J_end;
-  problem_->chain.jacobian(pose, problem_->chain.points() - 1, J_start);
+  TaskJacobian J_tip, J_start, J_end;
+  problem_->chain.jacobian(pose, problem_->chain.points() - 1, J_tip);
   ++counters_->jacobians;
-  const Eigen::JacobiSVD<TaskJacobian> svd(J_start, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::JacobiSVD<TaskJacobian> svd(J_tip, Eigen::ComputeThinU | Eigen::ComputeThinV);
   ++counters_->linear_solves;
   const TaskVector& s = svd.singularValues();
   Eigen::Index rank = 0;
   while (rank < s.size() && s(rank) > settings_->ik.rank_threshold * s(0)) ++rank;
   task_ = svd.matrixV().leftCols(rank);
 
-  bool all_free = true;
+  bool in_order = true;
   for (const Link& link : problem_->chain.links()) {
     bool have_jacobians = false;
     for (int j = 0; j < obstacles_->size(); ++j) {
       const auto [distance, t, normal] = obstacles_->proximity(pose, link, j);
       const double missing = obstacles_->distance() - distance;
       if (missing < -settings_->contact_band) continue;
-      if (missing >= 0) all_free = false;
+      if (missing >= 0) in_order = false;
       if (!have_jacobians) {
         problem_->chain.jacobian(pose, link.start, J_start);
         problem_->chain.jacobian(pose, link.end, J_end);
         counters_->jacobians += 2;
         have_jacobians = true;
       }
-      add({link.number, j}, missing + 0.1 * settings_->safety_offset,
+      add(link.number, j, missing + 0.1 * settings_->safety_offset,
           (1 - t) * (J_start.transpose() * normal) + t * (J_end.transpose() * normal));
     }
   }
@@ -94,42 +110,27 @@ bool LinkRelease<Dim>::gather(const ChainPose& pose, const JointBox& box, const 
     const JointVector e = JointVector::Unit(problem_->chain.joints(), j);
     const double below = box.lower(j) - q(j);
     const double above = q(j) - box.upper(j);
-    if (below > 0 || above > 0) all_free = false;
-    if (below > -kBoxBand) add({}, below + kBeyond, e);
-    if (above > -kBoxBand) add({}, above + kBeyond, -e);
+    if (below > 0 || above > 0) in_order = false;
+    if (below > -kBoxBand) add(0, -1, below + kBeyond, e);
+    if (above > -kBoxBand) add(0, -1, above + kBeyond, -e);
   }
-  return all_free;
+  return in_order;
 }
 
 /// Contacts beyond kMaxContacts are left out, and so are those that no self-motion opens.
 template <int Dim>
-void LinkRelease<Dim>::add(const Pair& pair, double missing, const JointVector& gradient) {
+void LinkRelease<Dim>::add(int link, int obstacle, double missing, const JointVector& gradient) {
   if (count_ == kMaxContacts) return;
   const JointVector a = gradient - task_ * (task_.transpose() * gradient);
   if (!(a.norm() > kVanishing * gradient.norm())) return;
-  contacts_[count_++] = {pair, missing, a, 0};
-}
-
-template <int Dim>
-JointVector LinkRelease<Dim>::least_motion() {
-  JointVector dq = JointVector::Zero(problem_->chain.joints());
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    for (std::size_t c = 0; c < count_; ++c) {
-      Contact& contact = contacts_[c];
-      const double more = (contact.missing - contact.a.dot(dq)) / contact.a.squaredNorm();
-      const double lambda = std::max(0.0, contact.lambda + more);
-      dq += (lambda - contact.lambda) * contact.a;
-      contact.lambda = lambda;
-    }
-  }
-  return dq;
+  contacts_[count_++] = {link, obstacle, missing, a, 0};
 }
 
 template <int Dim>
 void LinkRelease<Dim>::remember_pushed() {
   const auto end = [this] { return pushed_.begin() + static_cast<std::ptrdiff_t>(pushed_count_); };
   for (std::size_t c = 0; c < count_; ++c) {
-    const Pair pair = contacts_[c].pair;
+    const Pair pair{contacts_[c].link, contacts_[c].obstacle};
     if (!(contacts_[c].lambda > 0) || pair.link == 0 || pushed_count_ == kMaxContacts) continue;
     const bool known = std::any_of(pushed_.begin(), end(), [&pair](const Pair& other) {
       return other.link == pair.link && other.obstacle == pair.obstacle;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "bqsa/bqsa_settings.hpp"
 #include "bqsa/joint_box.hpp"
@@ -10,6 +11,20 @@
 #include "bqsa/obstacle_field.hpp"
 
 namespace bqsa {
+
+/// One condition on a joint motion dq: aᵀ dq >= missing.
+struct Contact {
+  int link = 0;  ///< number; 0: none, the end of a joint's interval
+  int obstacle = -1;
+  double missing = 0;  ///< distance - s_c [m], or the angle beyond the end [rad]
+  JointVector a;       ///< a_c [m/rad], or [-]; not zero
+  double lambda = 0;   ///< result: how hard it pushes
+};
+
+/// The least |dq| [rad] that all contacts allow: dq = sum_c lambda_c a_c with lambda_c >= 0, by
+/// Gauss-Seidel sweeps. Where contacts are nearly parallel, or contradict each other, it is what a fixed
+/// number of sweeps comes to.
+JointVector least_motion(int joints, std::span<Contact> contacts);
 
 /// The smallest self-motion that takes all links out of all obstacles and all joints into their box, to
 /// first order, repeated until they are.
@@ -22,9 +37,8 @@ namespace bqsa {
 ///
 /// J(t*) interpolated between the link's end-points, N the null-space projector of the tip task. The end
 /// of a joint's interval is a contact too, with a_c = ±N e_j and s_c the angle left. Wanted is the least
-/// |dq| with a_cᵀ dq >= distance - s_c for all c. It is dq = sum_c lambda_c a_c with lambda_c >= 0, found
-/// by Gauss-Seidel sweeps over the contacts: a contact only pushes, and one that the others open far
-/// enough has lambda_c = 0.
+/// |dq| with a_cᵀ dq >= distance - s_c for all c (`least_motion`): a contact only pushes, and one that
+/// the others open far enough has lambda_c = 0.
 ///
 /// The paper clears one link at a time, by a self-motion that bends the arm inside of an anchor. That
 /// fails when an arm is caught between contacts; this then finds whatever way out there is nearby.
@@ -50,20 +64,13 @@ class LinkRelease {
   static constexpr std::size_t kMaxContacts = 64;
 
   struct Pair {
-    int link = 0;  ///< number; 0: none, the end of a joint's interval
+    int link = 0;
     int obstacle = -1;
-  };
-  struct Contact {
-    Pair pair;
-    double missing;  ///< distance - s_c [m], or [rad]
-    JointVector a;   ///< a_c [m/rad], or [-]
-    double lambda;
   };
 
   bool all_free(const ChainPose& pose) const;
   bool gather(const ChainPose& pose, const JointBox& box, const JointVector& q);
-  void add(const Pair& pair, double missing, const JointVector& gradient);
-  JointVector least_motion();
+  void add(int link, int obstacle, double missing, const JointVector& gradient);
   void remember_pushed();
 
   const Problem* problem_ = nullptr;

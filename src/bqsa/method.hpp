@@ -32,7 +32,7 @@ std::string why_not_applicable(const Capabilities& capabilities, const Problem& 
 enum class TickState {
   kFree,        ///< the predicted motion was free
   kClamped,     ///< links had to be moved out of obstacles, and were
-  kUnclaimed,   ///< the arm moved, and the method does not claim that the motion is free
+  kUnclaimed,   ///< the arm moved; the method does not claim that it is free and on its path
   kInfeasible,  ///< no free motion was found; the arm holds its last safe configuration
 };
 

@@ -57,6 +57,9 @@ Arm planar_arm(int links) {
   constexpr double kOtherJoints = 0.8;  // [rad]
   const double length = rounded(kPlanarReach / links);
   Arm arm{.chain = planar_chain(std::vector<double>(static_cast<std::size_t>(links), length)),
+          .limits = {.lower = {},
+                     .upper = {},
+                     .max_velocity = JointVector::Constant(links, kPlanarSpeed)},
           .reach = links * length};
   arm.start_high = JointVector::Constant(links, kOtherJoints);
   arm.start_high(0) = kFirstJoint;

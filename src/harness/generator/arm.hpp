@@ -20,10 +20,12 @@ struct Arm {
   JointVector start_high = {};  ///< [rad]
 };
 
-/// Links of equal length, kPlanarReach in all, joint angles unlimited.
+/// Links of equal length, kPlanarReach in all, joint angles unlimited, every joint as fast as
+/// kPlanarSpeed.
 Arm planar_arm(int links);
 
-inline constexpr double kPlanarReach = 2.8;  ///< as the arm of scenarios/planar_7r.yaml [m]
+inline constexpr double kPlanarReach = 2.8;       ///< as the arm of scenarios/planar_7r.yaml [m]
+inline constexpr double kPlanarSpeed = 0.785398;  ///< 45 degrees a second [rad/s]
 
 /// The arms of spatial families, in turn: KUKA LBR iiwa 14 and Franka Panda.
 /// @param robots  directory that holds kuka_lbr_iiwa14.yaml and franka_panda.yaml

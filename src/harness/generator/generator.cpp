@@ -10,6 +10,7 @@
 #include "harness/generator/nominal_motion.hpp"
 #include "harness/generator/random_stream.hpp"
 #include "harness/generator/scenario_draft.hpp"
+#include "harness/generator/witness_motion.hpp"
 #include "harness/input_error.hpp"
 
 namespace bqsa::harness {
@@ -92,26 +93,34 @@ std::optional<Filter> objection(const Family& family, const Arm& arm,
   return std::nullopt;
 }
 
+/// What obstacles are held against.
+struct Motions {
+  NominalMotion nominal;
+  std::optional<ArmMotion> witness = {};  ///< of families that have them
+};
+
 /// Why an obstacle may not stand where it does.
-std::optional<Filter> objection(const NominalMotion& nominal, const Obstacle& obstacle) {
-  if (!nominal.start_is_clear(obstacle)) return Filter::kStart;
-  if (!nominal.path_is_clear(obstacle)) return Filter::kTipPath;
-  if (!nominal.inner_links_are_clear(obstacle)) return Filter::kInnerLinks;
+std::optional<Filter> objection(const Motions& motions, const Obstacle& obstacle) {
+  if (!motions.nominal.start_is_clear(obstacle)) return Filter::kStart;
+  if (!motions.nominal.path_is_clear(obstacle)) return Filter::kTipPath;
+  if (!motions.nominal.inner_links_are_clear(obstacle)) return Filter::kInnerLinks;
+  if (motions.witness && !keeps_clear(*motions.witness, obstacle)) return Filter::kWitness;
   return std::nullopt;
 }
 
 /// Obstacles drawn together until none is objected to and, where asked for, the nominal arm hits
 /// the first. None if that does not come about.
 template <typename Draw>
-std::optional<std::vector<ObstacleDraft>> place(const NominalMotion& nominal, bool hit, Draw&& draw,
+std::optional<std::vector<ObstacleDraft>> place(const Motions& motions, bool hit, Draw&& draw,
                                                 RandomStream& random, Rejections& rejections) {
+  const NominalMotion& nominal = motions.nominal;
   const Problem& problem = nominal.problem();
   for (int i = 0; i < kPlacements; ++i) {
     std::vector<ObstacleDraft> drafts = draw(nominal, random);
     std::optional<Filter> why;
     for (const ObstacleDraft& draft : drafts) {
       const Obstacle obstacle = to_obstacle(draft, problem.dimension(), problem.ticks, problem.dt);
-      if (!why) why = objection(nominal, obstacle);
+      if (!why) why = objection(motions, obstacle);
       if (!why && hit && &draft == &drafts.front() && !nominal.outer_link_hits(obstacle)) {
         why = Filter::kNoHit;
       }
@@ -124,12 +133,12 @@ std::optional<std::vector<ObstacleDraft>> place(const NominalMotion& nominal, bo
 
 /// All obstacles of a scenario. None if one of them found no place.
 std::optional<std::vector<ObstacleDraft>> place_all(const Family& family, const ObstaclePlan& plan,
-                                                    const NominalMotion& nominal,
-                                                    RandomStream& random, Rejections& rejections) {
+                                                    const Motions& motions, RandomStream& random,
+                                                    Rejections& rejections) {
   using Drafts = std::vector<ObstacleDraft>;
   Drafts all;
   const auto add = [&](bool hit, const auto& draw) {
-    std::optional<Drafts> placed = place(nominal, hit, draw, random, rejections);
+    std::optional<Drafts> placed = place(motions, hit, draw, random, rejections);
     if (placed) all.insert(all.end(), placed->begin(), placed->end());
     return placed.has_value();
   };
@@ -167,26 +176,34 @@ std::optional<std::vector<ObstacleDraft>> place_all(const Family& family, const 
   return all;
 }
 
-/// One attempt at a scenario, without its name.
-std::optional<ScenarioDraft> draw_scenario(const Family& family, const Structure& structure,
-                                           RandomStream& random, Rejections& rejections) {
+/// A scenario without its name, and how it is solved.
+struct Drawn {
+  ScenarioDraft draft;
+  Trajectory witness = {};
+};
+
+/// One attempt at a scenario. None if a filter objects to it, which is counted.
+std::optional<Drawn> draw_scenario(const Family& family, const Structure& structure,
+                                   RandomStream& random, Rejections& rejections) {
+  const auto rejected = [&rejections](Filter filter) {
+    rejections.count(filter);
+    return std::nullopt;
+  };
   std::optional<ScenarioDraft> draft = draw_task(family, structure.arm, random);
-  if (!draft) {
-    rejections.count(Filter::kReach);
-    return std::nullopt;
+  if (!draft) return rejected(Filter::kReach);
+  Motions motions{NominalMotion(to_problem(*draft))};
+  const std::optional<Filter> why = objection(family, structure.arm, motions.nominal);
+  if (why) return rejected(*why);
+  if (family.witnesses) {
+    motions.witness = draw_witness(motions.nominal.problem(), random);
+    if (!motions.witness) return rejected(Filter::kWitnessMotion);
   }
-  const NominalMotion nominal(to_problem(*draft));
-  if (const std::optional<Filter> why = objection(family, structure.arm, nominal)) {
-    rejections.count(*why);
-    return std::nullopt;
-  }
-  const auto obstacles = place_all(family, structure.plan, nominal, random, rejections);
-  if (!obstacles) {
-    rejections.count(Filter::kUnplaceable);
-    return std::nullopt;
-  }
+  const auto obstacles = place_all(family, structure.plan, motions, random, rejections);
+  if (!obstacles) return rejected(Filter::kUnplaceable);
   draft->obstacles = *obstacles;
-  return draft;
+  if (!motions.witness) return Drawn{*draft};
+  if (!solves(*motions.witness, to_problem(*draft))) return rejected(Filter::kWitnessJudged);
+  return Drawn{*draft, motions.witness->trajectory()};
 }
 
 }  // namespace
@@ -214,6 +231,10 @@ const std::vector<Family>& families() {
        .summary = "planar arms, two ellipses with a gap of 40 to 120 mm beside a link",
        .planar = true,
        .obstacles = ObstacleKind::kGap},
+      {.name = "planar_any",
+       .summary = "as planar, but none is known to have a solution and many have none",
+       .planar = true,
+       .witnesses = false},
   };
   return kFamilies;
 }
@@ -226,14 +247,20 @@ const char* name_of(Filter filter) {
       return "joint_limits";
     case Filter::kTracking:
       return "tracking";
+    case Filter::kWitnessMotion:
+      return "witness_motion";
     case Filter::kUnplaceable:
       return "unplaceable";
+    case Filter::kWitnessJudged:
+      return "witness_judged";
     case Filter::kStart:
       return "start";
     case Filter::kTipPath:
       return "tip_path";
     case Filter::kInnerLinks:
       return "inner_links";
+    case Filter::kWitness:
+      return "witness";
     case Filter::kNoHit:
       return "no_hit";
   }
@@ -248,13 +275,14 @@ GeneratedScenario generate(const Family& family, std::uint64_t seed, int index,
       draw_structure(family, index, spatial_arms, RandomStream{seed, number, place_in_family, 0});
   for (std::uint64_t attempt = 1; attempt <= kAttempts; ++attempt) {
     RandomStream random{seed, number, place_in_family, attempt};
-    std::optional<ScenarioDraft> draft = draw_scenario(family, structure, random, rejections);
-    if (!draft) continue;
-    draft->name = fmt::format("{}_s{}_{:05}", family.name, seed, index);
-    draft->description =
+    std::optional<Drawn> drawn = draw_scenario(family, structure, random, rejections);
+    if (!drawn) continue;
+    ScenarioDraft& draft = drawn->draft;
+    draft.name = fmt::format("{}_s{}_{:05}", family.name, seed, index);
+    draft.description =
         fmt::format("Generated by bqsa-bench, family {}, seed {}, index {}, generator version {}",
                     family.name, seed, index, kGeneratorVersion);
-    return {draft->name, to_yaml(*draft)};
+    return {draft.name, to_yaml(draft), drawn->witness};
   }
   throw InputError(
       fmt::format("{}: expected an arm that allows scenario {}, got none in {} attempts",

@@ -8,12 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "bqsa/method.hpp"
 #include "harness/generator/arm.hpp"
 
 namespace bqsa::harness {
 
 /// Goes up whenever a family, seed and index give other bytes than before.
-inline constexpr int kGeneratorVersion = 1;
+inline constexpr int kGeneratorVersion = 2;
 
 enum class PathKind {
   kLineOrArc,      ///< well within reach
@@ -34,22 +35,26 @@ struct Family {
   bool spatial = false;  ///< of both, even indices are planar
   PathKind paths = PathKind::kLineOrArc;
   ObstacleKind obstacles = ObstacleKind::kSome;
+  bool witnesses = true;  ///< every problem has a known solution
 };
 
 const std::vector<Family>& families();
 
 /// Why something drawn was thrown away.
 enum class Filter {
-  kReach,        ///< an arm and path: the path leaves the shell that it has to stay in
-  kLimits,       ///< an arm and path: the nominal motion exceeds a joint limit
-  kTracking,     ///< an arm and path: the nominal motion exceeds the tolerance or a largest step
-  kUnplaceable,  ///< an arm and path: one of its obstacles passed no filter in kPlacements tries
-  kStart,        ///< an obstacle: a link is too near at the start
-  kTipPath,      ///< an obstacle: the tip's path is too near
-  kInnerLinks,   ///< an obstacle: the nominal links 1 and 2 come too near
-  kNoHit,        ///< an obstacle that has to be hit by the nominal arm is not
+  kReach,          ///< an arm and path: the path leaves the shell that it has to stay in
+  kLimits,         ///< an arm and path: the nominal motion exceeds a joint limit
+  kTracking,       ///< an arm and path: the nominal motion exceeds the tolerance or a largest step
+  kWitnessMotion,  ///< an arm and path: no witness keeps limits, steps and tolerance
+  kUnplaceable,    ///< an arm and path: one of its obstacles passed no filter in kPlacements tries
+  kWitnessJudged,  ///< an arm, path and obstacles: the judge finds fault with the witness
+  kStart,          ///< an obstacle: a link is too near at the start
+  kTipPath,        ///< an obstacle: the tip's path is too near
+  kInnerLinks,     ///< an obstacle: the nominal links 1 and 2 come too near
+  kWitness,        ///< an obstacle: the witness comes too near
+  kNoHit,          ///< an obstacle that has to be hit by the nominal arm is not
 };
-inline constexpr int kFilters = 8;
+inline constexpr int kFilters = 11;
 inline constexpr int kPlacements = 30;
 
 const char* name_of(Filter filter);
@@ -67,6 +72,8 @@ class Rejections {
 struct GeneratedScenario {
   std::string name;  ///< `<family>_s<seed>_<index>`, the index of five digits
   std::string yaml;  ///< the file
+  /// A trajectory that the judge calls a success; without rows if the family has no witnesses.
+  Trajectory witness = {};
 };
 
 /// Scenario `index` of a family and seed: always the same bytes, whatever else is generated.

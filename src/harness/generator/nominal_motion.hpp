@@ -5,8 +5,7 @@
 
 #include <vector>
 
-#include "bqsa/method.hpp"
-#include "bqsa/problem.hpp"
+#include "harness/generator/arm_motion.hpp"
 
 namespace bqsa::harness {
 
@@ -18,21 +17,12 @@ inline constexpr double kHitDepth = 0.001;  ///< least depth that is a hit of th
 inline constexpr int kFirstOuterLink = 3;   ///< number of the first link that is to be hit
 
 /// The method `none` on a problem without obstacles.
-class NominalMotion {
+class NominalMotion : public ArmMotion {
  public:
   explicit NominalMotion(const Problem& problem);
 
-  const Problem& problem() const { return problem_; }
-  const ChainPose& pose(int tick) const { return poses_[static_cast<std::size_t>(tick)]; }
-
   /// Whether the desired tip stays at ticks in the shell between two distances from a point [m].
   bool path_within(const Eigen::Vector3d& center, double least, double most) const;
-
-  /// Whether the joints keep their limits at all ticks.
-  bool keeps_limits() const;
-
-  /// Whether the tip error at ticks keeps the tolerance and every step the largest allowed.
-  bool tracks() const;
 
   /// Whether all links at the start are kStartClearance away from the obstacle.
   bool start_is_clear(const Obstacle& obstacle) const;
@@ -48,12 +38,7 @@ class NominalMotion {
   bool outer_link_hits(const Obstacle& obstacle) const;
 
  private:
-  bool closer(int tick, const Link& link, const Obstacle& obstacle, double clearance) const;
-
-  Problem problem_;
-  std::vector<JointVector> q_;
-  std::vector<ChainPose> poses_;
-  std::vector<Eigen::Vector3d> desired_;
+  std::vector<Eigen::Vector3d> desired_;  ///< at the ticks [m]
 };
 
 }  // namespace bqsa::harness

@@ -62,12 +62,24 @@ std::string to_yaml(const ObstacleDraft& obstacle, int dimension) {
                      obstacle.motion ? to_yaml(*obstacle.motion, dimension) : "");
 }
 
+/// The key `limits` of a planar robot; nothing if there are none.
+std::string to_yaml(const JointLimits& limits) {
+  std::string text;
+  for (const auto& [key, numbers] :
+       {std::pair("lower", &limits.lower), std::pair("upper", &limits.upper),
+        std::pair("max_velocity", &limits.max_velocity)}) {
+    if (numbers->size() == 0) continue;
+    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", key, list(*numbers));
+  }
+  return text.empty() ? "" : fmt::format(", limits: {{{}}}", text);
+}
+
 /// The mapping `robot`, its numbers with as many digits as bring them back.
 std::string to_yaml(const ChainDescription& robot, const JointLimits& limits) {
   if (robot.dimension == 2) {
     std::vector<double> lengths;
     for (const DhRow& row : robot.rows) lengths.push_back(row.a);
-    return fmt::format("robot: {{kind: planar, links: {}}}\n", list(lengths));
+    return fmt::format("robot: {{kind: planar, links: {}{}}}\n", list(lengths), to_yaml(limits));
   }
   std::string text = fmt::format("robot:\n  kind: {}\n  joints:\n",
                                  robot.convention == DhConvention::kModified ? "mdh" : "dh");

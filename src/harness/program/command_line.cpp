@@ -171,6 +171,8 @@ void declare(CLI::App& app, CommandLine& line) {
       ->required();
   generate->add_option("--robots", line.generate.robots,
                        "Directory of robot files, for families with spatial arms [./robots]");
+  generate->add_flag("--witnesses", line.generate.witnesses,
+                     "Write a solution beside each scenario too, FILE.witness.csv, for judge");
   generate->callback([&line] {
     line.command = [&line](const Console& console) {
       return generate_command(line.generate, console);
@@ -178,7 +180,8 @@ void declare(CLI::App& app, CommandLine& line) {
   });
 
   CLI::App* validate = add_command(app, "validate", "Check scenario files without running");
-  validate->add_option("FILE", line.files, "Scenario files")->required();
+  validate->add_option("FILE", line.files, "Scenario files, or directories with files *.yaml")
+      ->required();
   validate->callback([&line] {
     line.command = [&line](const Console& console) {
       return validate_command(line.files, console);

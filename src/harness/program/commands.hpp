@@ -89,13 +89,16 @@ struct GenerateOptions {
   std::uint64_t seed = 0;
   std::filesystem::path directory;          ///< for the scenario files; made if missing
   std::filesystem::path robots = "robots";  ///< directory of robot files, for spatial arms
+  bool witnesses = false;                   ///< write the known solutions too
 };
 
-/// Writes generated scenarios `<family>_s<seed>_<index>.yaml`. A file that is there stays if it has
-/// the same bytes; with others it is not overwritten, and nothing is written after it.
+/// Writes generated scenarios `<family>_s<seed>_<index>.yaml`, and if asked for their solutions
+/// `<family>_s<seed>_<index>.witness.csv`. A file that is there stays if it has the same bytes; with
+/// others it is not overwritten, and nothing is written after it.
 Status generate_command(const GenerateOptions& options, const Console& console);
 
-/// Says of each scenario file whether it can be used.
-Status validate_command(const std::vector<std::filesystem::path>& files, const Console& console);
+/// Says of each scenario file, those in directories included, whether it can be used.
+/// @throws InputError for a directory that cannot be listed or holds none
+Status validate_command(const std::vector<std::filesystem::path>& named, const Console& console);
 
 }  // namespace bqsa::harness

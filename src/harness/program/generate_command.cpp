@@ -7,6 +7,7 @@
 #include "harness/generator/generator.hpp"
 #include "harness/program/commands.hpp"
 #include "harness/text_file.hpp"
+#include "harness/trajectory_csv.hpp"
 
 namespace bqsa::harness {
 namespace fs = std::filesystem;
@@ -24,12 +25,19 @@ const Family& family_of(const std::string& name) {
 }
 
 /// Whether the file is there with just these bytes; other bytes are not overwritten.
-bool is_there(const fs::path& file, const std::string& yaml) {
+bool is_there(const fs::path& file, const std::string& text) {
   std::error_code unknown;
   if (fs::symlink_status(file, unknown).type() == fs::file_type::not_found) return false;
-  if (read_text_file(file, kMaxBytes) == yaml) return true;
-  throw InputError(fmt::format(
-      "{}: expected no file or the scenario to be written, got another one", file.string()));
+  if (read_text_file(file, kMaxBytes) == text) return true;
+  throw InputError(
+      fmt::format("{}: expected no file or what is to be written, got another one", file.string()));
+}
+
+/// Whether it was not there before.
+bool write_new(const fs::path& file, const std::string& text) {
+  if (is_there(file, text)) return false;
+  write_text_file(file, text);
+  return true;
 }
 
 std::string counted(const Rejections& rejections, std::initializer_list<Filter> filters) {
@@ -44,6 +52,10 @@ std::string counted(const Rejections& rejections, std::initializer_list<Filter> 
 
 Status generate_command(const GenerateOptions& options, const Console& console) {
   const Family& family = family_of(options.family);
+  if (options.witnesses && !family.witnesses) {
+    throw InputError(
+        fmt::format("--witnesses: expected a family that has them, got {}", family.name));
+  }
   const std::vector<Arm> arms = family.spatial ? spatial_arms(options.robots) : std::vector<Arm>();
   std::error_code error;
   fs::create_directories(options.directory, error);
@@ -56,11 +68,10 @@ Status generate_command(const GenerateOptions& options, const Console& console) 
   int there = 0;
   for (int index = 0; index < options.count; ++index) {
     const GeneratedScenario scenario = generate(family, options.seed, index, arms, rejections);
-    const fs::path file = options.directory / (scenario.name + ".yaml");
-    if (is_there(file, scenario.yaml)) {
-      ++there;
-    } else {
-      write_text_file(file, scenario.yaml);
+    there += !write_new(options.directory / (scenario.name + ".yaml"), scenario.yaml);
+    if (options.witnesses) {
+      write_new(options.directory / (scenario.name + ".witness.csv"),
+                trajectory_text(scenario.witness));
     }
     if (console.terminal) {
       console.err << fmt::format("\r\033[K{} of {}", index + 1, options.count) << std::flush;
@@ -70,9 +81,10 @@ Status generate_command(const GenerateOptions& options, const Console& console) 
   console.out << fmt::format(
       "{}: wrote {} scenarios, {} were there; rejected arms and paths: {}; obstacles: {}\n",
       options.directory.string(), options.count - there, there,
-      counted(rejections,
-              {Filter::kReach, Filter::kLimits, Filter::kTracking, Filter::kUnplaceable}),
-      counted(rejections, {Filter::kStart, Filter::kTipPath, Filter::kInnerLinks, Filter::kNoHit}));
+      counted(rejections, {Filter::kReach, Filter::kLimits, Filter::kTracking,
+                           Filter::kWitnessMotion, Filter::kUnplaceable, Filter::kWitnessJudged}),
+      counted(rejections, {Filter::kStart, Filter::kTipPath, Filter::kInnerLinks, Filter::kWitness,
+                           Filter::kNoHit}));
   return kOk;
 }
 

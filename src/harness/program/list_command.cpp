@@ -18,7 +18,8 @@ std::string abilities(const MethodEntry& method) {
   std::string text;
   for (const auto& [able, name] :
        {std::pair(can.planar, "planar"), std::pair(can.spatial, "spatial"),
-        std::pair(can.link_radius, "link_radius"), std::pair(can.margin, "margin")}) {
+        std::pair(can.link_radius, "link radius"), std::pair(can.margin, "margin"),
+        std::pair(can.moving, "moving obstacles")}) {
     if (able) text += (text.empty() ? "" : ", ") + std::string(name);
   }
   return text;
@@ -35,7 +36,7 @@ std::string range_of(const ParameterDeclaration& parameter) {
 }
 
 void print_method(const MethodEntry& method, std::ostream& out) {
-  out << fmt::format("  {:<12}{}\n  {:<12}{}\n  {:<12}for {}\n", method.name, method.summary, "",
+  out << fmt::format("  {:<17} {}\n  {:<17} {}\n  {:<17} for {}\n", method.name, method.summary, "",
                      method.source, "", abilities(method));
   const ParameterValues defaults(method.parameters);
   const auto values = defaults.as_text();
@@ -54,7 +55,7 @@ Status list_command(const std::filesystem::path& scenarios, const Console& conso
 
   console.out << "\nfamilies of random scenarios, for generate\n";
   for (const Family& family : families()) {
-    console.out << fmt::format("  {:<12}{}\n", family.name, family.summary);
+    console.out << fmt::format("  {:<17} {}\n", family.name, family.summary);
   }
 
   const std::filesystem::path directory = scenarios.empty() ? kDefaultDirectory : scenarios;
@@ -67,7 +68,7 @@ Status list_command(const std::filesystem::path& scenarios, const Console& conso
   for (const std::filesystem::path& file : yaml_files(directory)) {
     try {
       const Scenario scenario = load_scenario(file);
-      console.out << fmt::format("  {:<24}{}\n", scenario.problem.name, scenario.description);
+      console.out << fmt::format("  {:<23} {}\n", scenario.problem.name, scenario.description);
     } catch (const InputError& error) {
       console.error(error.what());
       status = kBadInput;

@@ -3,13 +3,14 @@
 #include <ostream>
 
 #include "harness/program/commands.hpp"
+#include "harness/program/scenario_files.hpp"
 #include "harness/scenario/scenario.hpp"
 
 namespace bqsa::harness {
 
-Status validate_command(const std::vector<std::filesystem::path>& files, const Console& console) {
+Status validate_command(const std::vector<std::filesystem::path>& named, const Console& console) {
   Status status = kOk;
-  for (const std::filesystem::path& file : files) {
+  for (const std::filesystem::path& file : with_directories_opened(named)) {
     try {
       const Problem problem = load_scenario(file).problem;
       console.out << fmt::format("{}: valid: {}, joints: {}, obstacles: {}, ticks: {}\n",

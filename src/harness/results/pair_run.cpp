@@ -12,6 +12,11 @@ std::string why_not_run(const Problem& problem, const MethodSpec& method,
   return why;
 }
 
+std::optional<Diagnosis> diagnosis_of(const Problem& problem, const RunOutcome& outcome) {
+  if (outcome.claim != Claim::kInfeasible) return std::nullopt;
+  return diagnose(problem, outcome.tick, outcome.reason, outcome.trajectory.q.back());
+}
+
 }  // namespace
 
 StoredRun run_pair(const Scenario& scenario, const Judge& judge, const MethodSpec& method,
@@ -34,8 +39,8 @@ StoredRun run_pair(const Scenario& scenario, const Judge& judge, const MethodSpe
     } catch (const InputError& error) {
       run.trajectory_error = error.what();
     }
-    run.record = run_record(scenario, method, outcome, judgement, machine, circumstances,
-                            staged ? file : "");
+    run.record = run_record(scenario, method, outcome, diagnosis_of(problem, outcome), judgement,
+                            machine, circumstances, staged ? file : "");
   } else {
     run.record = not_applicable_record(scenario, method, why_not, machine, circumstances);
   }

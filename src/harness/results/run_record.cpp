@@ -52,13 +52,18 @@ Json obstacle_json(const Problem& problem, int index) {
   return problem.obstacles[static_cast<std::size_t>(index)].name;
 }
 
-Json claimed_json(const Problem& problem, const RunOutcome& outcome) {
+Json claimed_json(const Problem& problem, const RunOutcome& outcome,
+                  const std::optional<Diagnosis>& diagnosis) {
   Json claimed = {{"status", name_of(outcome.claim)}};
   if (outcome.claim == Claim::kInfeasible) {
     claimed["tick"] = outcome.tick;
     claimed["reason"] = name_of(outcome.reason);
     claimed["link"] = outcome.link > 0 ? Json(outcome.link) : Json();
     claimed["obstacle"] = obstacle_json(problem, outcome.obstacle);
+    if (diagnosis) {
+      claimed["class"] = name_of(diagnosis->failure);
+      claimed["nearest_free_rad"] = diagnosis->nearest_free;
+    }
   } else if (outcome.claim == Claim::kCrashed) {
     claimed["tick"] = outcome.tick;
     claimed["message"] = outcome.message;
@@ -212,12 +217,12 @@ std::string variant_name(const MethodSpec& method, const RunSettings& settings) 
 }
 
 std::string run_record(const Scenario& scenario, const MethodSpec& method,
-                       const RunOutcome& outcome, const Judgement& judgement,
-                       const MachineState& machine, const Circumstances& circumstances,
-                       const std::string& trajectory_file) {
+                       const RunOutcome& outcome, const std::optional<Diagnosis>& diagnosis,
+                       const Judgement& judgement, const MachineState& machine,
+                       const Circumstances& circumstances, const std::string& trajectory_file) {
   const bool success = judgement.success();
   Json record = head_json(scenario, method, circumstances.settings);
-  record["claimed"] = claimed_json(scenario.problem, outcome);
+  record["claimed"] = claimed_json(scenario.problem, outcome, diagnosis);
   record["judged"] = judged_json(scenario.problem, judgement);
   record["claim_holds"] = claim_holds(outcome.claim, success);
   record["ticks"] = ticks_json(scenario.problem, outcome);

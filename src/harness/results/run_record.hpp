@@ -2,8 +2,10 @@
 /// One run as one line of JSON (schema bqsa-run/1, docs/results-format.md).
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "harness/failure_class.hpp"
 #include "harness/judge/judge.hpp"
 #include "harness/method_spec.hpp"
 #include "harness/results/provenance.hpp"
@@ -24,11 +26,12 @@ struct Circumstances {
 std::string variant_name(const MethodSpec& method, const RunSettings& settings);
 
 /// A run that took place. Without a line break at the end.
+/// @param diagnosis        of a run in which a reactive method gave up
 /// @param trajectory_file  relative to the results directory; empty if it was not stored
 std::string run_record(const Scenario& scenario, const MethodSpec& method,
-                       const RunOutcome& outcome, const Judgement& judgement,
-                       const MachineState& machine, const Circumstances& circumstances,
-                       const std::string& trajectory_file);
+                       const RunOutcome& outcome, const std::optional<Diagnosis>& diagnosis,
+                       const Judgement& judgement, const MachineState& machine,
+                       const Circumstances& circumstances, const std::string& trajectory_file);
 
 /// A pair of method and problem that does not fit, and why.
 std::string not_applicable_record(const Scenario& scenario, const MethodSpec& method,

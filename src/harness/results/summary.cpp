@@ -10,6 +10,7 @@
 #include <set>
 
 #include "bqsa/method.hpp"
+#include "harness/failure_class.hpp"
 #include "harness/judge/judge.hpp"
 #include "harness/results/table.hpp"
 #include "harness/results/text_table.hpp"
@@ -29,6 +30,8 @@ constexpr std::string_view kSummaryLegend =
     R"(success     runs judged a success of all runs of a method that applies; 95 %: Wilson's interval
 claim       wrong: runs in which the method claims success and the judge finds a failure, or the other way round
 failures    each failed run once: by the judge's most telling verdict, or, if the method only gave up, by its reason
+why         each run that gave up once: no free posture found; a way, but too far for one tick; arm singular; free
+            postures, but no way there; a way within the tick that the method missed. A diagnosis, not a verdict
 successes   the largest tip error, step and number of increments and the smallest clearance of all successes
 increments  clamping increments of a tick, over all ticks of all successes in which a link was cleared
 time        wall clock of a tick, over all ticks from the second on of all successes, as if of one run; median and
@@ -45,6 +48,8 @@ struct Tally {
   int claims_wrong = 0;
   int disturbed_claims_wrong = 0;
   std::map<std::string, int> failures;  ///< by failure_class()
+  int gave_up = 0;
+  std::map<std::string, int> gave_up_by_class;  ///< by TableRow::claim_class
 
   double tip_error_at_ticks_m = 0;
   double tip_error_between_ticks_m = 0;
@@ -86,6 +91,10 @@ void Tally::add(const TableRow& row) {
   }
   if (std::isfinite(row.run_s)) total_s += row.run_s;
   add_slowest(row);
+  if (!row.gave_up.empty()) {
+    ++gave_up;
+    ++gave_up_by_class[row.claim_class];
+  }
   if (row.success) {
     add_success(row);
   } else {
@@ -246,6 +255,36 @@ std::string failure_table(const Summary& summary) {
     return cells;
   });
   return table.text();
+}
+
+/// What stood in the way of methods that gave up; empty if no run was asked.
+std::string why_table(const Summary& summary) {
+  static constexpr std::array kClasses{FailureClass::kNoRoom, FailureClass::kLate,
+                                       FailureClass::kSingular, FailureClass::kBranch,
+                                       FailureClass::kMissed};
+  TextTable table({{"why", "", true},
+                   {"gave up", ""},
+                   {"no room", ""},
+                   {"late", ""},
+                   {"singular", ""},
+                   {"branch", ""},
+                   {"missed", ""},
+                   {"unknown", "", false, true}});
+  bool any = false;
+  summary.fill(table, [&any](const Tally& tally) {
+    int unknown = tally.gave_up;
+    std::vector<std::string> cells = {count_text(unknown)};
+    for (const FailureClass kind : kClasses) {
+      const auto found = tally.gave_up_by_class.find(name_of(kind));
+      const int count = found == tally.gave_up_by_class.end() ? 0 : found->second;
+      cells.push_back(count_text(count));
+      unknown -= count;
+      any = any || count > 0;
+    }
+    cells.push_back(count_text(unknown));
+    return cells;
+  });
+  return any ? table.text() + '\n' : "";
 }
 
 std::string accuracy_table(const Summary& summary) {
@@ -432,9 +471,9 @@ std::string render_summary(const std::vector<TableRow>& all_rows) {
   return fmt::format("{} runs on {} scenarios of {} families\n\n", rows.size(),
                      count_scenarios(rows), summary.families.names().size()) +
          success_table(summary) + alarm + '\n' + failure_table(summary) + '\n' +
-         accuracy_table(summary) + '\n' + time_table(summary) + '\n' + pair_table(summary, rows) +
-         variant_notes(rows) + std::string(success_legend()) + std::string(kSummaryLegend) +
-         origin_notes(rows);
+         why_table(summary) + accuracy_table(summary) + '\n' + time_table(summary) + '\n' +
+         pair_table(summary, rows) + variant_notes(rows) + std::string(success_legend()) +
+         std::string(kSummaryLegend) + origin_notes(rows);
 }
 
 std::string render_failures(const std::vector<TableRow>& all_rows) {

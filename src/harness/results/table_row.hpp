@@ -33,7 +33,7 @@ struct TableRow {
   std::vector<std::string> failures;  ///< names of the judge's failures, the most telling first
   std::string disagreement;
   std::string gave_up;      ///< name of the reason why a reactive method gave up; else empty
-  std::string claim_class;  ///< of a method that gave up: `claimed.class` of a later analysis
+  std::string claim_class;  ///< of a method that gave up: name of its FailureClass, if it is known
 
   /// Where a run failed, as far as it is known: of a collision the first one, of a method that gave
   /// up the link that it could not free.

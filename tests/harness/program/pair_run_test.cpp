@@ -58,7 +58,7 @@ std::set<std::string> documented_keys() {
                         "dimension joints links obstacles[] nk ticks dt_s tolerance_m margin_m "
                         "link_radius_m"));
   all.merge(with_prefix("method.", "name variant changed parameters"));
-  all.merge(with_prefix("claimed.", "status tick reason link obstacle"));
+  all.merge(with_prefix("claimed.", "status tick reason link obstacle class nearest_free_rad"));
   all.merge(with_prefix("judged.",
                         "success failures[] rows disagreement touching clearance_at_ticks_m "
                         "clearance_m start_error_m max_joint_step_rad max_joint_step_tick"));
@@ -393,10 +393,46 @@ TEST_F(PairRun, ARecordTellsTheSlowestTickAndTheFailure) {
   EXPECT_EQ(row.failure_tick, contact["first_tick"].get<int>());
   EXPECT_EQ(row.failure_link, contact["link"].get<int>());
   EXPECT_EQ(row.failure_obstacle, contact["obstacle"].get<std::string>());
-  EXPECT_EQ(row.claim_class, "");
-  Json analysed = record;
-  analysed["claimed"]["class"] = "no_room";
-  EXPECT_EQ(parse_run_record(analysed.dump()).claim_class, "no_room");
+}
+
+TEST_F(PairRun, GivingUpIsDiagnosedWhereTheArmWas) {
+  constexpr int kTick = 20;  // of sweep_and_give_up
+  const Json record = run(scripted("sweep", sweep_and_give_up));
+  const Trajectory trajectory =
+      read_trajectory(directory_.path() / record["trajectory"].get<std::string>(), 7);
+  ASSERT_EQ(trajectory.q.size(), static_cast<std::size_t>(kTick));
+  const Diagnosis expected =
+      diagnose(scenario_.problem, kTick, Infeasible::kNot, trajectory.q.back());
+  ASSERT_NE(expected.failure,
+            diagnose(scenario_.problem, kTick, Infeasible::kNot, trajectory.q.front()).failure);
+  EXPECT_EQ(record["claimed"]["class"], name_of(expected.failure));
+  EXPECT_EQ(parse_run_record(record.dump()).claim_class, name_of(expected.failure));
+
+  const Json diverged = run(scripted("diverged", [](const StepInput&, StepOutput& output) {
+    output.state = TickState::kInfeasible;
+    output.reason = Infeasible::kDiverged;
+  }));
+  EXPECT_EQ(diverged["claimed"]["class"], "singular");
+  EXPECT_TRUE(diverged["claimed"]["nearest_free_rad"].is_null());
+  EXPECT_FALSE(run(scripted("lying", stand_still))["claimed"].contains("class"));
+}
+
+TEST_F(PairRun, OfTheWrongBranchTheNearestFreePostureIsRecorded) {
+  const Scenario& scenario = scenario_;
+  const RunOutcome outcome = [] {
+    RunOutcome gave_up;
+    gave_up.claim = Claim::kInfeasible;
+    gave_up.tick = 1;
+    return gave_up;
+  }();
+  const Judgement judgement = judge_.judge({{0}, {scenario.problem.start}});
+  const auto recorded = [&](const std::optional<Diagnosis>& diagnosis) {
+    return Json::parse(run_record(scenario, scripted("m", stand_still), outcome, diagnosis,
+                                  judgement, machine_state(), {}, ""))["claimed"];
+  };
+  EXPECT_EQ(recorded(Diagnosis{FailureClass::kBranch, 0.75})["class"], "branch");
+  EXPECT_EQ(recorded(Diagnosis{FailureClass::kBranch, 0.75})["nearest_free_rad"], 0.75);
+  EXPECT_TRUE(recorded(Diagnosis{FailureClass::kLate})["nearest_free_rad"].is_null());
 }
 
 TEST_F(PairRun, ASuccessHasHistogramsOfItsTicks) {

@@ -2,11 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "harness/methods.hpp"
 #include "program_runner.hpp"
 
 namespace bqsa::harness {
 namespace {
 
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
@@ -42,7 +44,7 @@ TEST_P(Everywhere, UnknownOptionsAreRefused) {
 
 INSTANTIATE_TEST_SUITE_P(Program, Everywhere,
                          ::testing::Values("program", "list", "run", "show", "step", "judge",
-                                           "validate"),
+                                           "generate", "validate"),
                          [](const auto& tested) { return tested.param; });
 
 struct BadCall {
@@ -151,6 +153,19 @@ TEST(Program, ListShowsMethodsParametersAndScenarios) {
   }
 }
 
+TEST(Program, ListKeepsNamesApartFromWhatTheyStandFor) {
+  const ProgramResult result =
+      run_bqsa_bench({"list", "--scenarios", BQSA_SOURCE_DIR "/scenarios"});
+  int names = 0;
+  for (const MethodEntry& method : methods()) {
+    EXPECT_THAT(result.out, ContainsRegex("\n  " + method.name + " +" + method.summary + "\n"));
+    ++names;
+  }
+  EXPECT_GT(names, 5);
+  EXPECT_THAT(result.out,
+              HasSubstr("for planar, spatial, link radius, margin, moving obstacles\n"));
+}
+
 TEST(Program, ListLooksForScenariosWhereItIsCalled) {
   const ProgramResult here = run_bqsa_bench({"list"}, {}, BQSA_SOURCE_DIR);
   EXPECT_EQ(here.status, 0);
@@ -170,6 +185,17 @@ TEST(Program, ValidateSpeaksOfEveryFile) {
   EXPECT_THAT(result.out, HasSubstr("puma560_ellipsoid.yaml: valid"));
   EXPECT_THAT(result.err, HasSubstr("broken.yaml"));
   EXPECT_EQ(run_bqsa_bench({"validate", kPlanar, kPuma}).status, 0);
+}
+
+TEST(Program, ValidateTakesDirectories) {
+  const ProgramResult result = run_bqsa_bench({"validate", BQSA_SOURCE_DIR "/scenarios"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.out, HasSubstr("planar_7r.yaml: valid"));
+  EXPECT_THAT(result.out, HasSubstr("puma560_wall.yaml: valid"));
+  const TemporaryDirectory empty;
+  const ProgramResult nothing = run_bqsa_bench({"validate", empty.path().string()});
+  EXPECT_EQ(nothing.status, 2);
+  EXPECT_THAT(nothing.err, HasSubstr("expected scenario files *.yaml, found none"));
 }
 
 TEST(Program, OutputThatCannotBeWrittenIsAnError) {

@@ -7,6 +7,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "harness/judge/judge_kinematics.hpp"
+#include "harness/methods.hpp"
 #include "support/allocation_guard.hpp"
 #include "test_methods.hpp"
 
@@ -275,6 +277,41 @@ TEST_F(Runner, HasNoWarmTimesWithoutWarmSteps) {
   EXPECT_EQ(outcome.times.warm_steps, 0);
   EXPECT_TRUE(std::isnan(outcome.times.warm_median_s));
   EXPECT_TRUE(std::isnan(outcome.times.warm_max_s));
+}
+
+/// Ticks from 1 on whose tip is further from its path than the tolerance.
+int ticks_off_path(const Problem& problem, const Trajectory& trajectory) {
+  const JudgeKinematics kinematics(problem.chain.description());
+  PointPositions arm;
+  int off = 0;
+  for (std::size_t k = 1; k < trajectory.q.size(); ++k) {
+    kinematics.place(trajectory.q[k], arm);
+    off += (arm.tip() - problem.desired_tip(trajectory.t[k])).norm() > problem.tolerance;
+  }
+  return off;
+}
+
+/// The paper's first-order steps leave the path by what depends on their length; at about half of the
+/// ticks that is more than this tolerance.
+TEST_F(Runner, BqsaPaperClaimsNothingOfTicksThatEndOffThePath) {
+  Problem strict = problem_;
+  strict.tolerance = 1e-5;
+  for (const MethodEntry& method : methods()) {
+    if (method.name != "bqsa" && method.name != "bqsa_paper") continue;
+    const RunOutcome outcome = run_method(strict, method, ParameterValues(method.parameters));
+    ASSERT_EQ(outcome.trajectory.q.size(), static_cast<std::size_t>(ticks_) + 1) << method.name;
+    const int off = ticks_off_path(strict, outcome.trajectory);
+    EXPECT_EQ(outcome.unclaimed_ticks, off) << method.name;
+    if (method.name == "bqsa_paper") {
+      EXPECT_GT(off, 20);
+      EXPECT_LT(off, ticks_ - 20);
+      EXPECT_GT(outcome.guard_fired, 0);
+      EXPECT_EQ(outcome.claim, Claim::kNothing);
+    } else {
+      EXPECT_EQ(off, 0);
+      EXPECT_EQ(outcome.claim, Claim::kSuccess);
+    }
+  }
 }
 
 }  // namespace

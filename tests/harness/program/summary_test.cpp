@@ -152,6 +152,37 @@ TEST(Summary, EveryFailureHasAColumn) {
   EXPECT_EQ(sum, static_cast<int>(rows.size()));
 }
 
+TEST(Summary, CountsWhyMethodsGaveUp) {
+  std::vector<TableRow> rows;
+  const auto add = [&rows](const std::string& family, const std::string& why, int count) {
+    for (int i = 0; i < count; ++i) {
+      rows.push_back(gave_up(family + "_s1_" + std::to_string(rows.size()), "m",
+                             Infeasible::kNoFreeConfiguration));
+      rows.back().claim_class = why;
+    }
+  };
+  add("a", "no_room", 1);
+  add("a", "late", 2);
+  add("a", "singular", 3);
+  add("a", "branch", 4);
+  add("a", "missed", 5);
+  add("b", "late", 1);
+  rows.push_back(success("a_s1_100", "m"));
+  rows.push_back(failed("a_s1_101", "m", Failure::kDrift));
+  rows.push_back(gave_up("a_s1_102", "m", Infeasible::kNoFreeMotion));
+  rows.back().claim_class = "branch";  // and drifted before
+  rows.back().failures.insert(rows.back().failures.begin(), name_of(Failure::kDrift));
+  // Of m on a: judged, failures, why; on b likewise.
+  EXPECT_THAT(words_of(render_summary(rows), "m", 4), ElementsAre("16", "1", "2", "3", "5", "5"));
+  EXPECT_THAT(words_of(render_summary(rows), "m", 5), ElementsAre("1", "0", "1", "0", "0", "0"));
+
+  add("a", "", 1);
+  add("a", "of a later version", 1);
+  EXPECT_EQ(words_of(render_summary(rows), "m", 4).back(), "2") << "unknown";
+  EXPECT_THAT(render_summary({gave_up("a_1", "m", Infeasible::kNoFreeMotion)}),
+              Not(HasSubstr("no room")));
+}
+
 TEST(Summary, AWrongClaimIsLoud) {
   TableRow lie = failed("planar_1", "liar", Failure::kCollision);
   lie.claim_holds = false;
@@ -256,6 +287,7 @@ TEST(Summary, FitsItsWidth) {
       rows.push_back(failed(name, method, static_cast<Failure>(kind)));
     } else if (kind < 15) {
       rows.push_back(gave_up(name, method, static_cast<Infeasible>(kind - 9)));
+      rows.back().claim_class = "singular";
     } else {
       rows.push_back(success(name, method));
       rows.back().slowest_s = 1.23;
