@@ -37,7 +37,7 @@ increments  clamping increments of a tick, over all ticks of all successes in wh
 time        wall clock of a tick, over all ticks from the second on of all successes, as if of one run; median and
             quantiles to 2.2 % (from histograms), max exact; slowest: of all runs, also those that gave up;
             total: of all runs, all that the methods did
-in pairs    scenarios to which both methods apply, by who succeeded
+in pairs    scenarios to which both methods apply, by who succeeded; methods that never did are left out
 )";
 
 /// What the runs of one method on one family add up to.
@@ -374,7 +374,9 @@ std::string pair_table(const Summary& summary, const std::vector<TableRow>& rows
           ++common;
           ++counts[success][other->second];
         }
-        if (common == 0) continue;
+        const int by_a = counts[1][0] + counts[1][1];
+        const int by_b = counts[0][1] + counts[1][1];
+        if (by_a == 0 || by_b == 0) continue;  // a pair that says no more than the counts above
         any = true;
         table.add_row({fmt::format("  {}, {}", methods[a], methods[b]), count_text(common),
                        count_text(counts[1][1]), count_text(counts[1][0]), count_text(counts[0][1]),
