@@ -80,7 +80,7 @@ JointBox box_of(const Problem& problem, const JointVector& q, double perturbatio
           (q.array() + perturbation).min(upper.array()).max(lower.array())};
 }
 
-/// Largest joint difference to the nearest free posture among the random ones; none if none is free.
+/// Largest joint difference to the nearest free one of the random postures; none if none is free.
 template <int Dim>
 std::optional<double> nearest_free(const Problem& problem, const StepInput& input) {
   WorkCounters uncounted;

@@ -28,14 +28,16 @@ struct Diagnosis {
 /// Looks for ways out of where a method gave up. This is an analysis for people, which no verdict
 /// and no method depends on. It knows nothing of the method but the reason it gave.
 ///
-///   1. kSingular: `reason` is kDiverged, or the smallest singular value of the tip's Jacobian at q is
-///      below s_0 of the BQSA settings, for arms that reach less than 1 m in proportion to the reach.
-///   2. kMissed: one tick of the exact search (exact_search.hpp), freeing all links at once first, is
-///      certified from q to x_d of that tick.
+///   1. kSingular: `reason` is kDiverged, or the smallest singular value of the tip's Jacobian at q
+///      is below s_0 of the BQSA settings, for arms that reach less than 1 m in proportion to the
+///      reach.
+///   2. kMissed: one tick of the exact search (exact_search.hpp), freeing all links at once first,
+///      is certified from q to x_d of that tick.
 ///   3. kLate: the same, if every joint may step 1 rad, or further where it may anyway.
-///   4. kNoRoom: of 2000 random postures whose tip is put onto x_d of that tick (tip_closure.hpp), none
-///      is within the joint limits and has all links further from all obstacles than link radius and
-///      margin. A quarter each are drawn within 0.1, 0.3 and 1 rad of q at every joint, and anywhere.
+///   4. kNoRoom: of 2000 random postures whose tip is put onto x_d of that tick (tip_closure.hpp),
+///      none is within the joint limits and has all links further from all obstacles than link
+///      radius and margin. A quarter each are drawn within 0.1, 0.3 and 1 rad of q at every joint,
+///      and anywhere.
 ///   5. kBranch: otherwise.
 ///
 /// The random numbers are the same at every call and on every machine. An arm that the exact search

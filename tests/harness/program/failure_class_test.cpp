@@ -81,8 +81,8 @@ bool samples_free(const std::vector<Eigen::Vector2d>& points, const Problem& pro
   return true;
 }
 
-/// Largest joint difference from kTrapezoid to the nearest free posture at tick 1, over a dense grid of
-/// all postures with the tip at kTip; infinite if none is free. Obstacles have axes along x and y.
+/// Largest joint difference from kTrapezoid to the nearest free posture at tick 1, over a dense grid
+/// of all postures with the tip at kTip; infinite if none is free. Obstacles have axes along x and y.
 double densely_nearest(const Problem& problem) {
   constexpr int kGrid = 20000;
   double nearest = std::numeric_limits<double>::infinity();

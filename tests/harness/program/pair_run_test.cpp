@@ -408,6 +408,16 @@ TEST_F(PairRun, GivingUpIsDiagnosedWhereTheArmWas) {
   EXPECT_EQ(record["claimed"]["class"], name_of(expected.failure));
   EXPECT_EQ(parse_run_record(record.dump()).claim_class, name_of(expected.failure));
 
+  // Standing still is missed at once, and later too far from the path.
+  const auto class_when_idle_until = [this](int tick) {
+    return run(scripted("idle", [tick](const StepInput& input, StepOutput& output) {
+      stand_still(input, output);
+      if (input.tick == tick) output.state = TickState::kInfeasible;
+    }))["claimed"]["class"];
+  };
+  EXPECT_EQ(class_when_idle_until(1), "missed");
+  EXPECT_NE(class_when_idle_until(200), "missed");
+
   const Json diverged = run(scripted("diverged", [](const StepInput&, StepOutput& output) {
     output.state = TickState::kInfeasible;
     output.reason = Infeasible::kDiverged;

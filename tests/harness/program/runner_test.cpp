@@ -291,8 +291,8 @@ int ticks_off_path(const Problem& problem, const Trajectory& trajectory) {
   return off;
 }
 
-/// The paper's first-order steps leave the path by what depends on their length; at about half of the
-/// ticks that is more than this tolerance.
+/// The paper's first-order steps leave the path by what depends on their length: at some ticks more
+/// than this tolerance, at some less.
 TEST_F(Runner, BqsaPaperClaimsNothingOfTicksThatEndOffThePath) {
   Problem strict = problem_;
   strict.tolerance = 1e-5;
