@@ -11,17 +11,27 @@ namespace bqsa {
 namespace {
 
 constexpr double kUnhurriedStep = 1.0;  // largest joint step without hurry [rad]
+constexpr double kAcross = 0.1;         // sine of the angle at which an axis is across a link
 constexpr int kFirstLead = 4;           // ticks before a dead end at which a branch starts
 constexpr int kPastDeadEnd = 5;         // ticks by which a branch must pass it
 constexpr int kMaxBranchings = 16;      // dead ends that one tick may get past
 
-/// Unit vectors across a link: two in the plane, four in space.
-std::vector<Eigen::Vector3d> directions_across(const Eigen::Vector3d& along, int dimension) {
-  if (dimension == 2) {
+/// Unit vectors across a link: two in the plane, four in space. Those in space are told by the arm's
+/// own axes, so that the frame W does not matter.
+std::vector<Eigen::Vector3d> directions_across(const SerialChain& chain, const ChainPose& pose,
+                                               const Link& link) {
+  const Eigen::Vector3d along = pose.p_WO.col(link.end) - pose.p_WO.col(link.start);
+  if (chain.dimension() == 2) {
     const Eigen::Vector3d left = Eigen::Vector3d(-along.y(), along.x(), 0).normalized();
     return {left, -left};
   }
-  const Eigen::Vector3d a = along.unitOrthogonal();
+  Eigen::Vector3d a = along.unitOrthogonal();  // if no axis is across the link
+  for (int j = chain.moving_joints(link.end) - 1; j >= 0; --j) {
+    const Eigen::Vector3d turning = pose.axis_W.col(j).cross(along);
+    if (turning.norm() <= kAcross * along.norm()) continue;
+    a = turning.normalized();
+    break;
+  }
   const Eigen::Vector3d b = along.cross(a).normalized();
   return {a, -a, b, -b};
 }
@@ -171,8 +181,7 @@ bool BqsaLookahead::branch(int last) {
     const int from = std::max(plan_.first_tick(), plan_.last_tick() - lead);
     problem_->chain.forward(plan_.at(from).q, pose);
     for (const Link* link : nearest_first) {
-      const Eigen::Vector3d along = pose.p_WO.col(link->end) - pose.p_WO.col(link->start);
-      for (const Eigen::Vector3d& across : directions_across(along, problem_->dimension())) {
+      for (const Eigen::Vector3d& across : directions_across(problem_->chain, pose, *link)) {
         if (tried++ == settings_.branches) return false;
         if (lean(from, *link, across, last)) return true;
       }

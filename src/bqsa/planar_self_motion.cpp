@@ -7,7 +7,7 @@ namespace bqsa {
 namespace {
 
 constexpr int kMaxIterations = 25;
-constexpr double kConverged = 1e-12;  // largest residual [rad], and [m] for lengths of 1 m
+constexpr double kConverged = 1e-12;  // largest residual [rad], and part of the arm's length [-]
 constexpr double kLargestStep = 0.3;  // joint step beyond which Newton is cut back [rad]
 constexpr double kAbsurdStep = 1e6;  // a Newton step like this means that C has lost its rank [rad]
 constexpr double kSingular = 1e-12;  // smallest pivot of C Cᵀ relative to its largest
@@ -26,17 +26,20 @@ bool PlanarSelfMotion::turn_link(int link, int anchor, double turn, JointVector&
   const double psi_anchor = q.head(anchor).sum();
   const double psi_target = q.head(link).sum() + turn;
 
-  const double converged = kConverged * std::max(1.0, pose.p_WO.cwiseAbs().maxCoeff());
+  // Positions count in lengths of the arm, so that they weigh like angles for an arm of any size.
+  const double length = chain_->reach(0, anchor);
+  const double converged = kConverged * std::max(1.0, pose.p_WO.cwiseAbs().maxCoeff() / length);
   for (int iteration = 0;; ++iteration) {
     Eigen::Vector3d residual;
-    residual << p_anchor - pose.p_WO.col(anchor).head<2>(), psi_target - q.head(link).sum();
+    residual << (p_anchor - pose.p_WO.col(anchor).head<2>()) / length,
+        psi_target - q.head(link).sum();
     if (residual.cwiseAbs().maxCoeff() < converged) break;
     if (iteration == kMaxIterations) return false;
 
     Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kMaxJoints> C(3, anchor);
     chain_->jacobian(pose, anchor, J_);
     ++counters_->jacobians;
-    C.topRows<2>() = J_.leftCols(anchor);
+    C.topRows<2>() = J_.leftCols(anchor) / length;
     C.row(2).setZero();
     C.row(2).head(link).setOnes();
     const Eigen::LDLT<Eigen::Matrix3d> CCt(C * C.transpose());

@@ -14,6 +14,9 @@ constexpr double kConverged = 1e-7;
 /// Change of mu that is rounding, relative to the least a_i² + mu.
 constexpr double kRounding = 1e-14;
 
+/// Difference of two planes' distances that is rounding, relative to the lengths in play.
+constexpr double kSameDistance = 5e-16;
+
 }  // namespace
 
 template <int Dim>
@@ -25,6 +28,10 @@ NearestPlane<Dim> nearest_plane(const EllipsoidN<Dim>& ellipsoid,
   const Vector x1 = ellipsoid.rotation().transpose() * (p1 - ellipsoid.center());
   const Vector x2 = ellipsoid.rotation().transpose() * (p2 - ellipsoid.center());
   const Vector d = x2 - x1;
+
+  // Of planes that differ by rounding the last is the best: errors of the normal enter the distance
+  // squared, so that rounding would choose one that is off by 1e-8.
+  const double same = kSameDistance * (std::max(x1.norm(), x2.norm()) + std::sqrt(a_squared.sum()));
 
   NearestPlane<Dim> best{Vector::UnitX(), -ellipsoid.semi_axes().minCoeff()};
   Vector best_normal = Vector::UnitX();
@@ -44,7 +51,7 @@ NearestPlane<Dim> nearest_plane(const EllipsoidN<Dim>& ellipsoid,
     const double support_squared = n.cwiseAbs2().dot(a_squared);
     const double support = std::sqrt(support_squared);
     const double distance = (std::min(n.dot(x1), n.dot(x2)) - support) / length;
-    if (best.planes == 0 || distance > best.distance) {
+    if (best.planes == 0 || distance > best.distance - same) {
       best.distance = distance;
       best_normal = n / length;
       best.t = t;
