@@ -112,6 +112,7 @@ void expect_same_as_file(const ScenarioDraft& draft) {
 
 TEST(ScenarioDraft, PlanarProblemIsThatOfItsFile) {
   ScenarioDraft draft{.name = "drafted", .description = "two", .robot = planar_chain({1, 0.8})};
+  draft.limits.max_velocity = JointVector::Constant(2, 0.785398);
   draft.start.resize(2);
   draft.start << 0.25, 1.5;
   ChainPose pose;
@@ -128,6 +129,11 @@ TEST(ScenarioDraft, PlanarProblemIsThatOfItsFile) {
                       .semi_axes = {0.2, 0.1, 0.2},
                       .rotation = {-0.7, 0, 0, 0},
                       .motion = MotionDraft{{0.1, -0.05, 0}, {0, 0, 0.4}}}};
+  expect_same_as_file(draft);
+  draft.limits.lower = JointVector::Constant(2, -1.5);
+  draft.limits.upper = JointVector::Constant(2, 1.75);
+  expect_same_as_file(draft);
+  draft.limits = {};
   expect_same_as_file(draft);
 }
 
