@@ -7,6 +7,7 @@
 namespace bqsa::harness {
 
 const std::vector<MethodEntry>& methods() {
+  // clang-format off
   static const std::vector<MethodEntry> kMethods = {
       baselines::plain_tracking_method(),
       bqsa_method(),
@@ -15,6 +16,7 @@ const std::vector<MethodEntry>& methods() {
       bqsa_lookahead_method(),
       baselines::test_point_method(),
   };
+  // clang-format on
   return kMethods;
 }
 
