@@ -29,8 +29,8 @@ NearestPlane<Dim> nearest_plane(const EllipsoidN<Dim>& ellipsoid,
   const Vector x2 = ellipsoid.rotation().transpose() * (p2 - ellipsoid.center());
   const Vector d = x2 - x1;
 
-  // Of planes that differ by rounding the last is the best: errors of the normal enter the distance
-  // squared, so that rounding would choose one that is off by 1e-8.
+  // Of planes whose distances differ by rounding the last has the best normal: errors of the normal
+  // enter the distance squared, so that rounding would choose one that is off by 1e-8.
   const double same = kSameDistance * (std::max(x1.norm(), x2.norm()) + std::sqrt(a_squared.sum()));
 
   NearestPlane<Dim> best{Vector::UnitX(), -ellipsoid.semi_axes().minCoeff()};
@@ -52,7 +52,7 @@ NearestPlane<Dim> nearest_plane(const EllipsoidN<Dim>& ellipsoid,
     const double support = std::sqrt(support_squared);
     const double distance = (std::min(n.dot(x1), n.dot(x2)) - support) / length;
     if (best.planes == 0 || distance > best.distance - same) {
-      best.distance = distance;
+      best.distance = best.planes == 0 ? distance : std::max(best.distance, distance);
       best_normal = n / length;
       best.t = t;
     }
