@@ -1,6 +1,6 @@
 /// @file
-/// Random problems of all that a problem can have: obstacles at rest and on the move, one or several,
-/// link radius, margin, limits of speed.
+/// Random problems of all that a problem can have: obstacles at rest and on the move, one or
+/// several, link radius, margin, limits of speed.
 #pragma once
 
 #include <utility>
@@ -11,8 +11,8 @@
 
 namespace bqsa::test_support {
 
-/// Seven links of 0.4 m and a straight path, in 150 ticks; plain tracking leads one of the links 3 to 7
-/// into one ellipse, at tick 80. The tip's path is clear and so is the start.
+/// Seven links of 0.4 m and a straight path, in 150 ticks; plain tracking leads one of the links 3
+/// to 7 into one ellipse, at tick 80. The tip's path is clear and so is the start.
 inline Problem random_planar_scene(Generator& generator) {
   for (;;) {
     Problem problem = planar_7r(150);
@@ -72,9 +72,9 @@ inline Problem blocked(Problem problem, int tick) {
   return problem;
 }
 
-/// Problems in the plane or in space, all different. Of every four one has a single obstacle at rest, one a
-/// single moving obstacle, one link radius, margin and speed limits, one several obstacles, of which one
-/// moves. All starts are clear.
+/// Problems in the plane or in space, all different. Of every four one has a single obstacle at
+/// rest, one a single moving obstacle, one link radius, margin and speed limits, one several
+/// obstacles, of which one moves. All starts are clear.
 inline std::vector<Problem> assorted_scenes(int dimension, int count, std::uint64_t seed) {
   Generator generator(seed);
   const bool planar = dimension == 2;
