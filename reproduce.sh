@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# From a fresh clone on Debian 12 to the results: installs what is missing, builds, runs all methods on
-# all scenarios, prints the table.
+# From a fresh clone on Debian 12 to the results: installs what is missing, builds, runs the variants on a
+# few hundred random problems and all methods on the paper's scenarios, prints summary and table.
 set -euo pipefail
 cd "$(dirname "$0")"
 start=$SECONDS
@@ -14,14 +14,19 @@ tools/quiet.sh $logs/configure.log cmake --preset release \
 tools/quiet.sh $logs/build.log cmake --build --preset release --target bqsa-bench
 
 rm -rf "$out"
+tools/random_problems.sh quick "$out/random_problems"
+
 program=build/release/src/harness/program/bqsa-bench
+echo
 # All methods as they are, and the test-point method once more with the gains and the density of points
 # that it needs to pass the PUMA 560 scenes.
 "$program" run scenarios/*.yaml --out "$out" \
-  --method none --method bqsa --method bqsa_paper --method test_point \
+  --method none --method bqsa --method bqsa_paper --method bqsa_projection \
+  --method bqsa_lookahead --method test_point \
   --method test_point:law=gradient_projection,n=50,m=2000,influence=0.08,gradient_gain=600
 
 seconds=$((SECONDS - start))
 echo
 echo "results: $out (runs.jsonl, trajectories); show them again: $program show $out"
+echo "random problems: $program show $out/random_problems --summary (or --failures)"
 printf 'elapsed: %d min %d s\n' $((seconds / 60)) $((seconds % 60))
