@@ -397,7 +397,11 @@ std::string variant_notes(const std::vector<TableRow>& rows) {
     if (!meaning.empty()) meanings[row.variant] = meaning;
   }
   std::string text;
-  for (const auto& [variant, meaning] : meanings) text += variant + '\n' + meaning;
+  for (const auto& [variant, meaning] : meanings) {
+    text += variant;
+    text += '\n';
+    text += meaning;
+  }
   return text;
 }
 
