@@ -37,7 +37,6 @@ void BackwardSearch::step(const StepInput& input, StepOutput& output) {
 /// certified, again with twice the distance.
 Infeasible BackwardSearch::search(const StepInput& input, const JointVector& q_predicted, Way way,
                                   StepOutput& output) {
-  const JointBox box = reachable_box(*problem_, input.q);
   double distance = settings_.safety_offset;
   MotionCertificate::Result motion;
   JointVector q_refused;
@@ -48,10 +47,8 @@ Infeasible BackwardSearch::search(const StepInput& input, const JointVector& q_p
     output.obstacle = -1;
     q_ = q_predicted;
     forward();
-    const Infeasible reason = way == Way::kOneByOne ? free_links(input, output)
-                              : free_together(input.p_WT_desired, box, &output)
-                                  ? forbidden_step(*problem_, input.q, q_)
-                                  : Infeasible::kNoFreeConfiguration;
+    const Infeasible reason =
+        way == Way::kOneByOne ? free_links(input, output) : release_links(input, output);
     if (reason != Infeasible::kNot) {
       if (!motion.certified) break;
       return reason;
@@ -71,6 +68,12 @@ Infeasible BackwardSearch::search(const StepInput& input, const JointVector& q_p
   output.link = motion.link;
   output.obstacle = motion.obstacle;
   return Infeasible::kNoFreeMotion;
+}
+
+Infeasible BackwardSearch::release_links(const StepInput& input, StepOutput& output) {
+  const JointBox box = reachable_box(*problem_, input.q);
+  if (!free_together(input.p_WT_desired, box, &output)) return Infeasible::kNoFreeConfiguration;
+  return forbidden_step(*problem_, input.q, q_);
 }
 
 bool BackwardSearch::fit(int tick, const Eigen::Vector3d& p_WT, double distance,

@@ -78,6 +78,7 @@ class BackwardSearch : public ReactiveMethod {
   enum class Way { kOneByOne, kTogether };
   Infeasible search(const StepInput& input, const JointVector& q_predicted, Way way,
                     StepOutput& output);
+  Infeasible release_links(const StepInput& input, StepOutput& output);
   bool predict(const StepInput& input);
 
   TaskJacobian J_tip_;  ///< at the start of the tick

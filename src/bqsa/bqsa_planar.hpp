@@ -44,10 +44,7 @@ class BqsaPlanar final : public BackwardSearch {
   void keep(double distance) override { obstacles_.keep(distance); }
   bool free_together(const Eigen::Vector3d& p_WT, const JointBox& box,
                      StepOutput* output) override {
-    const JointVector q_before = q_;
-    const bool freed = release_.release(p_WT, box, q_, pose_);
-    if (freed && output) release_.record(q_before, q_, *output);
-    return freed;
+    return release_.release(p_WT, box, q_, pose_, output);
   }
   Infeasible free_links(const StepInput& input, StepOutput& output) override;
   MotionCertificate::Result finish(const StepInput& input, const JointVector& q_predicted,

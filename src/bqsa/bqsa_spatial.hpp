@@ -33,10 +33,7 @@ class BqsaSpatial final : public SpatialSearch {
   Infeasible free_link(const StepInput& input, const Link& link, StepOutput& output) override;
   bool free_together(const Eigen::Vector3d& p_WT, const JointBox& box,
                      StepOutput* output) override {
-    const JointVector q_before = q_;
-    const bool freed = release_.release(p_WT, box, q_, pose_);
-    if (freed && output) release_.record(q_before, q_, *output);
-    return freed;
+    return release_.release(p_WT, box, q_, pose_, output);
   }
 
   bool clamping_velocity(const Link& link, int obstacle, JointVector& phi);

@@ -42,7 +42,16 @@ void LinkRelease<Dim>::assign(const Problem& problem, const ObstacleField<Dim>& 
 
 template <int Dim>
 bool LinkRelease<Dim>::release(const Eigen::Vector3d& p_WT, const JointBox& box, JointVector& q,
-                               ChainPose& pose) {
+                               ChainPose& pose, StepOutput* output) {
+  const JointVector q_before = q;
+  if (!push_apart(p_WT, box, q, pose)) return false;
+  if (output != nullptr) record((q - q_before).cwiseAbs().maxCoeff(), *output);
+  return true;
+}
+
+template <int Dim>
+bool LinkRelease<Dim>::push_apart(const Eigen::Vector3d& p_WT, const JointBox& box, JointVector& q,
+                                  ChainPose& pose) {
   pushed_count_ = 0;
   iterations_ = 0;
   const auto tip_in_place = [&] {
@@ -140,13 +149,12 @@ void LinkRelease<Dim>::remember_pushed() {
 }
 
 template <int Dim>
-void LinkRelease<Dim>::record(const JointVector& q_before, const JointVector& q_after,
-                              StepOutput& output) const {
+void LinkRelease<Dim>::record(double offset, StepOutput& output) const {
   for (std::size_t k = 0; k < pushed_count_; ++k) {
     record_clamp({.link = pushed_[k].link,
                   .obstacle = pushed_[k].obstacle,
                   .anchor = problem_->chain.joints(),
-                  .offset = (q_after - q_before).cwiseAbs().maxCoeff(),
+                  .offset = offset,
                   .increments = k == 0 ? iterations_ : 0},
                  output);
   }

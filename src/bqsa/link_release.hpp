@@ -53,12 +53,11 @@ class LinkRelease {
   /// @param box   where the joints have to be
   /// @param q     joint angles, changed in place; unspecified after failure [rad]
   /// @param pose  of q before and after
+  /// @param output  if given, what was pushed out of obstacles is added to its clamps after success
   /// @return whether all links keep their distance, all joints are in the box and the tip is in place
   /// Does not allocate.
-  bool release(const Eigen::Vector3d& p_WT, const JointBox& box, JointVector& q, ChainPose& pose);
-
-  /// Adds what the last release pushed out of obstacles to the clamps of a tick.
-  void record(const JointVector& q_before, const JointVector& q_after, StepOutput& output) const;
+  bool release(const Eigen::Vector3d& p_WT, const JointBox& box, JointVector& q, ChainPose& pose,
+               StepOutput* output = nullptr);
 
  private:
   static constexpr std::size_t kMaxContacts = 64;
@@ -68,6 +67,9 @@ class LinkRelease {
     int obstacle = -1;
   };
 
+  bool push_apart(const Eigen::Vector3d& p_WT, const JointBox& box, JointVector& q,
+                  ChainPose& pose);
+  void record(double offset, StepOutput& output) const;
   bool all_free(const ChainPose& pose) const;
   bool gather(const ChainPose& pose, const JointBox& box, const JointVector& q);
   void add(int link, int obstacle, double missing, const JointVector& gradient);
