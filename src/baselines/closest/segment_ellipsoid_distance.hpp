@@ -12,11 +12,11 @@ namespace bqsa::baselines {
 /// segment's point deepest inside in the ellipsoid's own metric, both points are that point, and
 /// `direction` is the outward normal of the level surface there.
 struct SegmentDistance {
-  double distance = 0;                                     ///< [m]
-  double s = 0;                                            ///< on the segment: 0 at a, 1 at b
-  Eigen::Vector3d p_segment = Eigen::Vector3d::Zero();     ///< in W [m]
-  Eigen::Vector3d p_ellipsoid = Eigen::Vector3d::Zero();   ///< in W [m]
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();     ///< unit, from ellipsoid to segment
+  double distance = 0;                                    ///< [m]
+  double s = 0;                                           ///< on the segment: 0 at a, 1 at b
+  Eigen::Vector3d p_segment = Eigen::Vector3d::Zero();    ///< in W [m]
+  Eigen::Vector3d p_ellipsoid = Eigen::Vector3d::Zero();  ///< in W [m]
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();    ///< unit, from ellipsoid to segment
 };
 
 /// Distance of the segment from a to b [m, W], which may have zero length. The squared distance is

@@ -41,16 +41,21 @@ class MotionCheck {
   bool is_free_between(double t0, const JointVector& q0, double t1, const JointVector& q1,
                        const std::vector<Pair>& pairs, int halvings);
   void go_to(double t);
+
+  /// How far any point of the link or obstacle gets, at most, from where it is in the middle of the
+  /// motion [m].
+  /// @param turn  of each joint on either side of the middle, not negative [rad]
+  double link_motion(const Link& link, const JointVector& turn) const;
   double obstacle_motion(int obstacle, double t0, double t1) const;
 
   const Problem* problem_ = nullptr;
   WorkCounters* counters_ = nullptr;
   double clearance_ = 0;  ///< of the links' axes [m]
   std::vector<Pair> all_pairs_;
-  std::vector<std::vector<Pair>> open_;  ///< pairs still open at each depth
-  std::vector<Ellipsoid> shapes_;        ///< at the time of go_to()
-  std::vector<std::vector<double>> travel_;  ///< of a moving obstacle: bound of the way of any of its
-                                             ///< points from tick 0 to each tick [m]
+  std::vector<std::vector<Pair>> open_;      ///< pairs still open at each depth
+  std::vector<Ellipsoid> shapes_;            ///< at the time of go_to()
+  std::vector<std::vector<double>> travel_;  ///< of a moving obstacle: bound of the way of any of
+                                             ///< its points from tick 0 to each tick [m]
   ChainPose pose_;
 };
 

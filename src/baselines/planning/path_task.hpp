@@ -2,7 +2,6 @@
 /// The tip task as planners see it: postures whose tip is on the path at a given time.
 #pragma once
 
-#include "bqsa/hybrid_ik.hpp"
 #include "bqsa/problem.hpp"
 #include "bqsa/work_counters.hpp"
 
@@ -29,13 +28,13 @@ class PathTask {
   double error(double t, const JointVector& q);
 
  private:
+  void look(const JointVector& q);
+  void find_jacobian();
+
   const Problem* problem_ = nullptr;
   WorkCounters* counters_ = nullptr;
-  JointVector no_weights_;
-  JointVector no_motion_;
   ChainPose pose_;
   TaskJacobian J_;
-  HybridIkResult ik_;
 };
 
 }  // namespace bqsa::baselines
