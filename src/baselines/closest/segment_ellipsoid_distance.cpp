@@ -9,8 +9,8 @@ namespace {
 using Eigen::Array3d;
 using Eigen::Vector3d;
 
-/// Newton's error is squared by the step that follows: this leaves rounding.
-constexpr double kLastStep = 1e-8;
+/// What the search may leave of the distance, as part of the coordinates.
+constexpr double kRounding = 1e-16;
 constexpr int kMaxSteps = 100;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -25,6 +25,9 @@ struct Dual {
     double t;   ///< the minimising t
     bool free;  ///< whether t lies between the ends
     Array3d x;  ///< p + t d
+
+    /// Outward normal of the surface at A m, the point on it that belongs to l.
+    Array3d normal() const { return w * x; }
   };
 
   Point at(double l) const {
@@ -40,13 +43,11 @@ struct Dual {
   }
 
   /// S(l) of the header.
-  double secular(const Point& point) const {
-    return (squares * (point.w * point.x).square()).sum();
-  }
+  double secular(const Point& point) const { return (squares * point.normal().square()).sum(); }
 
   /// -S'(l) / 2. A free t moves with l, which adds the second term.
   double secular_slope(const Point& point, double l) const {
-    const Array3d xw = point.w * point.x;
+    const Array3d xw = point.normal();
     double slope = (squares * xw.square() * point.w).sum();
     if (point.free) {
       const double turn = (point.w * xw * d).sum();
@@ -81,12 +82,19 @@ SegmentDistance segment_distance(const Vector3d& a, const Vector3d& b, const Ell
   double secular = dual.secular(point);
   const bool meet = secular <= 1;
   if (!meet) {
+    const double thinnest = dual.squares.minCoeff();
     double low = 0;
     double high = kInfinity;
+    const double size_squared = dual.p.square().sum() + dual.d.square().sum();
     for (int step = 0; step < kMaxSteps; ++step) {
       const double excess = std::sqrt(secular) - 1;  // S^(-1/2) = 1 is wanted
-      const double newton = l + excess * secular / dual.secular_slope(point, l);
-      const bool last = std::abs(excess) < kLastStep || newton == l;
+      const double change = excess * secular / dual.secular_slope(point, l);
+      const double newton = l + change;
+      // Newton's next error is at most change² / (l + a_min²), and moves the surface by that times |m|.
+      const double next_error = change * change / (newton + thinnest);
+      const bool last = next_error * next_error * point.normal().square().sum() <=
+                            kRounding * kRounding * size_squared ||
+                        newton == l;
       (excess > 0 ? low : high) = l;
       const bool astray = !(newton > low && newton < high) && high < kInfinity;
       l = astray && !last ? 0.5 * (low + high) : newton;
@@ -99,7 +107,12 @@ SegmentDistance segment_distance(const Vector3d& a, const Vector3d& b, const Ell
   SegmentDistance result;
   result.s = point.t;
   result.p_segment = point.t == 1 ? b : Vector3d(a + point.t * (b - a));
-  const Vector3d m = point.w * point.x;  // outward normal of the surface at A m
+  Vector3d m = point.normal();
+  const Vector3d on_surface = dual.squares * m.array();
+  if (point.free) {
+    // Across the segment by construction; to rounding too, though x be small against p and w large.
+    m -= m.dot(dual.d.matrix()) / dual.d.square().sum() * dual.d.matrix();
+  }
   const double length = m.norm();
   if (length > 0) {
     result.direction = R * (m / length);
@@ -110,7 +123,7 @@ SegmentDistance segment_distance(const Vector3d& a, const Vector3d& b, const Ell
   if (meet) {
     result.p_ellipsoid = result.p_segment;
   } else {
-    result.p_ellipsoid = shape.center() + R * (dual.squares * m.array()).matrix();
+    result.p_ellipsoid = shape.center() + R * on_surface;
   }
   return result;
 }
