@@ -1,5 +1,6 @@
 #include "harness/methods.hpp"
 
+#include "baselines/closest_point_methods.hpp"
 #include "baselines/plain_tracking.hpp"
 #include "baselines/test_point.hpp"
 #include "bqsa/bqsa_methods.hpp"
@@ -15,6 +16,8 @@ const std::vector<MethodEntry>& methods() {
       bqsa_projection_method(),
       bqsa_lookahead_method(),
       baselines::test_point_method(),
+      baselines::maciejewski_klein_method(),
+      baselines::fcl_gp_method(),
   };
   // clang-format on
   return kMethods;
