@@ -12,11 +12,19 @@ namespace {
 constexpr Capabilities kEverything{
     .planar = true, .spatial = true, .link_radius = true, .margin = true, .moving = true};
 
-// The defaults are the best of results/gain_sweep.
+// The gains are the best of results/gain_sweep (tools/sweep_gains.py).
 constexpr AvoidanceSettings kMaciejewskiKlein{.law = AvoidanceLaw::kMaciejewskiKlein,
+                                              .influence = 0.031,
+                                              .full_distance = 0.015,
+                                              .escape_velocity = 0.5,
+                                              .regularization = 1.6e-6,
+                                              .exempt_length = 0.066,
                                               .obstacle_velocity = true,
                                               .step_limit = StepLimit::kScale};
 constexpr AvoidanceSettings kGradientProjection{.law = AvoidanceLaw::kGradientProjection,
+                                                .influence = 0.041,
+                                                .gradient_gain = 970,
+                                                .exempt_length = 0.078,
                                                 .obstacle_velocity = true,
                                                 .step_limit = StepLimit::kScale};
 

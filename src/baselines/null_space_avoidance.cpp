@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace bqsa::baselines {
 
@@ -56,21 +57,27 @@ Eigen::Vector3d velocity_at(const Obstacle& obstacle, int tick, double dt,
 
 double fitting_part(const Problem& problem, const JointVector& q, const JointVector& tracking,
                     const JointVector& avoidance) {
-  double part = 1;
-  const auto bound = [&part](double from, double by, double lower, double upper) {
-    if (!(from >= lower && from <= upper)) part = -1;
-    if (from + part * by > upper) part = (upper - from) / by;
-    if (from + part * by < lower) part = (lower - from) / by;
+  double least = 0, most = 1;
+  const auto keep = [&least, &most](double from, double by, double lower, double upper) {
+    if (by == 0) {
+      if (from < lower || from > upper) most = -1;
+      return;
+    }
+    const double one = (lower - from) / by, other = (upper - from) / by;
+    least = std::max(least, std::min(one, other));
+    most = std::min(most, std::max(one, other));
   };
-  for (int j = 0; j < problem.chain.joints() && part >= 0; ++j) {
-    bound(tracking(j), avoidance(j), -problem.max_step(j), problem.max_step(j));
-    if (part < 0) break;
-    const bool limited = problem.limits.lower.size() > 0 && problem.limits.upper.size() > 0;
-    if (limited) {
-      bound(q(j) + tracking(j), avoidance(j), problem.limits.lower(j), problem.limits.upper(j));
+  for (int j = 0; j < problem.chain.joints(); ++j) {
+    keep(tracking(j), avoidance(j), -problem.max_step(j), problem.max_step(j));
+    const double from = q(j) + tracking(j);
+    if (problem.limits.lower.size() > 0) {
+      keep(from, avoidance(j), problem.limits.lower(j), std::numeric_limits<double>::infinity());
+    }
+    if (problem.limits.upper.size() > 0) {
+      keep(from, avoidance(j), -std::numeric_limits<double>::infinity(), problem.limits.upper(j));
     }
   }
-  return part;
+  return least <= most ? most : -1;
 }
 
 void NullSpaceAvoidance::prepare(const Problem& problem) {
@@ -113,7 +120,7 @@ void NullSpaceAvoidance::step(const StepInput& input, StepOutput& output) {
   double part = 1;
   if (settings_.step_limit == StepLimit::kScale) {
     part = std::max(0.0, fitting_part(*problem_, input.q, dt * tracking, dt * avoidance));
-    part *= part < 1 ? 1 - 1e-12 : 1;  // a rounding below the limit
+    if (part < 1) part *= 1 - 1e-12;  // a rounding below the limit
   }
   const JointVector q = input.q + dt * (tracking + part * avoidance);
   const Infeasible forbidden = forbidden_step(*problem_, input.q, q);

@@ -70,7 +70,7 @@ Eigen::Vector3d velocity_at(const Obstacle& obstacle, int tick, double dt,
                             const Eigen::Vector3d& p);
 
 /// Largest k in [0, 1] for which the step tracking + k avoidance [rad] from q keeps the joint limits
-/// and the largest steps; negative if even k = 0 does not.
+/// and the largest steps; negative if none does.
 double fitting_part(const Problem& problem, const JointVector& q, const JointVector& tracking,
                     const JointVector& avoidance);
 
