@@ -1,5 +1,6 @@
 #include "harness/methods.hpp"
 
+#include "baselines/closest_point_methods.hpp"
 #include "baselines/plain_tracking.hpp"
 #include "baselines/planning/self_motion_search.hpp"
 #include "baselines/test_point.hpp"
@@ -16,7 +17,8 @@ const std::vector<MethodEntry>& methods() {
       bqsa_projection_method(),
       bqsa_lookahead_method(),
       baselines::test_point_method(),
-      baselines::self_motion_search_method(),
+      baselines::maciejewski_klein_method(),
+      baselines::fcl_gp_method(),
   };
   // clang-format on
   return kMethods;

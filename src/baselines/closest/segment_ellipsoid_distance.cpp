@@ -1,125 +1,130 @@
 #include "baselines/closest/segment_ellipsoid_distance.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace bqsa::baselines {
 namespace {
 
-using Vector = Eigen::Vector3d;
+using Eigen::Array3d;
+using Eigen::Vector3d;
 
-/// Closest points of an ellipsoid at the origin whose axes are the coordinate axes, for points
-/// outside it.
-class NearestPoint {
- public:
-  explicit NearestPoint(const Vector& semi_axes)
-      : semi_axes_(semi_axes), squares_(semi_axes.cwiseAbs2()) {}
+/// What the search may leave of the distance, as part of the coordinates.
+constexpr double kRounding = 1e-16;
+constexpr int kMaxSteps = 100;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-  /// x minus its closest point n on the surface: n_i = a_i² x_i / (a_i² + m) with the multiplier m
-  /// that solves |n_i / a_i| = 1. Newton on 1 / |n_i / a_i| - 1, which is concave in m, so that it
-  /// climbs from the left without overshooting.
-  Vector offset(const Vector& x) {
-    const Vector scaled = semi_axes_.cwiseProduct(x).cwiseAbs2();
-    // From where the last point left off, if that is not beyond the root.
-    double m = std::max(start_of(x), 0.0);
-    if (norm(scaled, multiplier_) >= 1) m = std::max(m, multiplier_);
-    for (int k = 0; k < kMostSteps; ++k) {
-      const Vector inverse = (squares_.array() + m).inverse();
-      const Vector terms = scaled.cwiseProduct(inverse.cwiseAbs2());
-      const double sum = terms.sum();
-      const double length = std::sqrt(sum);
-      const double step = sum * (length - 1) / terms.dot(inverse);
-      if (!(step > 1e-16 * m)) break;
-      m += step;
+/// The segment p + t d and the squared semi-axes, in the ellipsoid's axes.
+struct Dual {
+  Array3d p, d;
+  Array3d squares;
+
+  /// What belongs to one multiplier l.
+  struct Point {
+    Array3d w;  ///< 1 / (a_i² + l)
+    double t;   ///< the minimising t
+    bool free;  ///< whether t lies between the ends
+    Array3d x;  ///< p + t d
+
+    /// Outward normal of the surface at A m, the point on it that belongs to l.
+    Array3d normal() const { return w * x; }
+  };
+
+  Point at(double l) const {
+    Point point;
+    point.w = 1 / (squares + l);
+    const Array3d weighted = point.w * d;
+    const double along = -(weighted * p).sum();
+    const double whole = (weighted * d).sum();  // 0 only without length, and then `along` is 0 too
+    point.free = along > 0 && along < whole;
+    point.t = point.free ? along / whole : (along > 0 ? 1 : 0);
+    point.x = p + point.t * d;
+    return point;
+  }
+
+  /// S(l) of the header.
+  double secular(const Point& point) const { return (squares * point.normal().square()).sum(); }
+
+  /// -S'(l) / 2. A free t moves with l, which adds the second term.
+  double secular_slope(const Point& point, double l) const {
+    const Array3d xw = point.normal();
+    double slope = (squares * xw.square() * point.w).sum();
+    if (point.free) {
+      const double turn = (point.w * xw * d).sum();
+      slope += l * turn * turn / (point.w * d.square()).sum();
     }
-    multiplier_ = m;
-    return m * x.cwiseQuotient((squares_.array() + m).matrix());
+    return slope;
   }
-
- private:
-  static constexpr int kMostSteps = 60;
-
-  /// No more than the multiplier: each |n_i / a_i| alone is at most 1.
-  double start_of(const Vector& x) const {
-    return (semi_axes_.cwiseProduct(x.cwiseAbs()) - squares_).maxCoeff();
-  }
-
-  double norm(const Vector& scaled, double m) const {
-    return scaled.cwiseQuotient((squares_.array() + m).square().matrix()).sum();
-  }
-
-  Vector semi_axes_;
-  Vector squares_;
-  double multiplier_ = 0;
 };
 
-/// Parameter of the least distance, and the offset there. With g(t) = d·offset(p + t d), half the
-/// derivative of the squared distance, which grows with t: regula falsi (Illinois) on its root.
-double least(const Vector& p, const Vector& d, NearestPoint& nearest, Vector& offset) {
-  constexpr int kMostSteps = 80;
-  constexpr double kEnough = 4e-16;  // of |d| times the distance
-  double low = 0;
-  offset = nearest.offset(p);
-  double g_low = d.dot(offset);
-  if (g_low >= 0) return 0;
-  double high = 1;
-  offset = nearest.offset(p + d);
-  double g_high = d.dot(offset);
-  if (g_high <= 0) return 1;
-
-  double t = 0.5;
-  int side = 0;
-  for (int k = 0; k < kMostSteps && high - low > 1e-16; ++k) {
-    t = (low * g_high - high * g_low) / (g_high - g_low);
-    // Where it creeps, the middle takes over.
-    if (!(t > low && t < high) || k % 8 == 7) t = (low + high) / 2;
-    offset = nearest.offset(p + t * d);
-    const double g = d.dot(offset);
-    if (std::abs(g) <= kEnough * d.norm() * offset.norm()) break;
-    if (g < 0) {
-      low = t;
-      g_low = g;
-      if (side < 0) g_high /= 2;
-      side = -1;
-    } else {
-      high = t;
-      g_high = g;
-      if (side > 0) g_low /= 2;
-      side = 1;
-    }
-  }
-  return t;
+/// Some unit normal of the segment where the level has none, at the ellipsoid's centre: that part of
+/// the shortest axis that is across the segment, or failing that of another axis.
+Vector3d normal_at_center(const Vector3d& d, const Array3d& squares) {
+  int shortest;
+  squares.minCoeff(&shortest);
+  if (d.isZero(0)) return Vector3d::Unit(shortest);
+  const Vector3d along = d.stableNormalized();
+  int axis = shortest;
+  if (std::abs(along(axis)) > 0.9) axis = (axis + 1) % 3;
+  return (Vector3d::Unit(axis) - along(axis) * along).normalized();
 }
 
 }  // namespace
 
-SegmentDistance segment_distance(const Vector& a, const Vector& b, const Ellipsoid& shape) {
+SegmentDistance segment_distance(const Vector3d& a, const Vector3d& b, const Ellipsoid& shape) {
   const Eigen::Matrix3d& R = shape.rotation();
-  const Vector& semi_axes = shape.semi_axes();
-  const Vector p = R.transpose() * (a - shape.center());
-  const Vector d = R.transpose() * (b - a);
+  const Dual dual{.p = (R.transpose() * (a - shape.center())).array(),
+                  .d = (R.transpose() * (b - a)).array(),
+                  .squares = shape.semi_axes().array().square()};
 
-  const Vector u = p.cwiseQuotient(semi_axes);
-  const Vector v = d.cwiseQuotient(semi_axes);
-  const double vv = v.squaredNorm();
-  const double deepest = vv > 0 ? std::clamp(-u.dot(v) / vv, 0.0, 1.0) : 0.0;
+  double l = 0;
+  Dual::Point point = dual.at(0);
+  double secular = dual.secular(point);
+  const bool meet = secular <= 1;
+  if (!meet) {
+    const double thinnest = dual.squares.minCoeff();
+    double low = 0;
+    double high = kInfinity;
+    const double size_squared = dual.p.square().sum() + dual.d.square().sum();
+    for (int step = 0; step < kMaxSteps; ++step) {
+      const double excess = std::sqrt(secular) - 1;  // S^(-1/2) = 1 is wanted
+      const double change = excess * secular / dual.secular_slope(point, l);
+      const double newton = l + change;
+      // Newton's next error is at most change² / (l + a_min²), and moves the surface by that times |m|.
+      const double next_error = change * change / (newton + thinnest);
+      const bool last = next_error * next_error * point.normal().square().sum() <=
+                            kRounding * kRounding * size_squared ||
+                        newton == l;
+      (excess > 0 ? low : high) = l;
+      const bool astray = !(newton > low && newton < high) && high < kInfinity;
+      l = astray && !last ? 0.5 * (low + high) : newton;
+      point = dual.at(l);
+      if (last) break;
+      secular = dual.secular(point);
+    }
+  }
 
   SegmentDistance result;
-  if ((u + deepest * v).squaredNorm() <= 1) {
-    result.s = deepest;
-    result.p_segment = a + deepest * (b - a);
-    result.p_ellipsoid = result.p_segment;
-    result.direction = R * (u + deepest * v).cwiseQuotient(semi_axes).stableNormalized();
-    return result;
+  result.s = point.t;
+  result.p_segment = point.t == 1 ? b : Vector3d(a + point.t * (b - a));
+  Vector3d m = point.normal();
+  const Vector3d on_surface = dual.squares * m.array();
+  if (point.free) {
+    // Across the segment by construction; to rounding too, though x be small against p and w large.
+    m -= m.dot(dual.d.matrix()) / dual.d.square().sum() * dual.d.matrix();
   }
-  NearestPoint nearest(semi_axes);
-  Vector offset;
-  result.s = least(p, d, nearest, offset);
-  result.distance = offset.norm();
-  result.p_segment = a + result.s * (b - a);
-  const Vector offset_W = R * offset;
-  result.p_ellipsoid = result.p_segment - offset_W;
-  result.direction = offset_W.stableNormalized();
+  const double length = m.norm();
+  if (length > 0) {
+    result.direction = R * (m / length);
+  } else {
+    result.direction = R * normal_at_center(dual.d, dual.squares);
+  }
+  result.distance = l * length;
+  if (meet) {
+    result.p_ellipsoid = result.p_segment;
+  } else {
+    result.p_ellipsoid = shape.center() + R * on_surface;
+  }
   return result;
 }
 
