@@ -19,6 +19,7 @@ const std::vector<MethodEntry>& methods() {
       baselines::test_point_method(),
       baselines::maciejewski_klein_method(),
       baselines::fcl_gp_method(),
+      baselines::self_motion_search_method(),
   };
   // clang-format on
   return kMethods;
