@@ -11,7 +11,7 @@ namespace bqsa::baselines {
 /// pushes the closest link point of each obstacle away within the null space of the tip task, by
 /// Maciejewski and Klein's law or by gradient projection (parameter `law`). Of a moving obstacle it
 /// takes the place at the start of the step, where the arm is too; the obstacle's velocity is not
-/// used.
+/// used. Gives up where a joint's step would be too large.
 MethodEntry test_point_method();
 
 }  // namespace bqsa::baselines

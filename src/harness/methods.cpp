@@ -1,6 +1,8 @@
 #include "harness/methods.hpp"
 
+#include "baselines/closest_point_methods.hpp"
 #include "baselines/plain_tracking.hpp"
+#include "baselines/planning/self_motion_search.hpp"
 #include "baselines/test_point.hpp"
 #include "bqsa/bqsa_methods.hpp"
 
@@ -15,6 +17,9 @@ const std::vector<MethodEntry>& methods() {
       bqsa_projection_method(),
       bqsa_lookahead_method(),
       baselines::test_point_method(),
+      baselines::maciejewski_klein_method(),
+      baselines::fcl_gp_method(),
+      baselines::self_motion_search_method(),
   };
   // clang-format on
   return kMethods;

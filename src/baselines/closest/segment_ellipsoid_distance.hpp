@@ -19,9 +19,20 @@ struct SegmentDistance {
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();    ///< unit, from ellipsoid to segment
 };
 
-/// Distance of the segment from a to b [m, W], which may have zero length. The squared distance is
-/// convex along the segment; its minimum is found by a bracketed search on the derivative, with the
-/// point's closest point on the surface from the secular equation. Does not allocate.
+/// Distance of the segment from a to b [m, W], which may have zero length.
+///
+/// Solves the dual problem, one concave function of one number. In the ellipsoid's axes, with
+/// A = diag(a_i²) and x(t) = p + t d, every multiplier l >= 0 bounds the squared distance from below,
+///
+///     distance² >= l (G(l) - 1),   G(l) = min over t in [0, 1] of x(t)ᵀ (A + l)⁻¹ x(t),
+///
+/// and the best l attains it. The minimising t is a quotient of sums, and the slope of the bound,
+/// S(l) - 1 with S(l) = sum a_i² x_i² / (a_i² + l)², is the secular equation of the point x(t): zero
+/// where x - l (A + l)⁻¹ x lies on the surface. At l = 0 it is the level of the deepest point, so the
+/// first evaluation decides whether they meet. Newton's method on S^(-1/2), which is nearly linear,
+/// needs about five steps; a bracket catches it where t enters or leaves the ends.
+///
+/// Errors are of the rounding of the coordinates in the ellipsoid's axes. Does not allocate.
 SegmentDistance segment_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                  const Ellipsoid& shape);
 

@@ -47,6 +47,18 @@ class ProgramRun : public ::testing::Test {
   const std::string out_ = (directory_.path() / "results").string();
 };
 
+TEST_F(ProgramRun, TheClosestPointRivalsSolveThePlanarSceneWithTheirDefaults) {
+  const ProgramResult result =
+      run({kPlanar, "--strict", "--method", "maciejewski_klein", "--method", "fcl_gp"});
+  EXPECT_EQ(result.status, 0) << result.out;
+  const std::vector<nlohmann::json> all = records();
+  ASSERT_EQ(all.size(), 2u);
+  for (const nlohmann::json& record : all) {
+    EXPECT_EQ(record["judged"]["success"], true) << record["method"]["name"];
+    EXPECT_EQ(record["claimed"]["status"], "nothing");
+  }
+}
+
 TEST_F(ProgramRun, AllMethodsRunOnAllScenariosAndShowPrintsTheSameTable) {
   const ProgramResult result = run({kPlanar, kPuma});
   EXPECT_EQ(result.status, 0) << result.err;

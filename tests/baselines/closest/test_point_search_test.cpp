@@ -1,8 +1,10 @@
-#include "baselines/closest_test_points.hpp"
+#include "baselines/closest/test_point_search.hpp"
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <map>
+#include <numbers>
 
 #include "support/distance_oracle.hpp"
 #include "support/paper_problems.hpp"
@@ -20,6 +22,17 @@ JointVector random_joints(Generator& generator, int joints) {
                                   [&](Eigen::Index) { return uniform(generator, -1.5, 1.5); });
 }
 
+/// The closest of all links to one obstacle; link -1 if there is none.
+ClosestPoint closest_to(ClosestPointSearch& search, const ChainPose& pose, int obstacle) {
+  std::vector<ClosestPoint> found;
+  search.search(pose, std::numeric_limits<double>::infinity(), found);
+  ClosestPoint closest{.link = -1, .distance = std::numeric_limits<double>::infinity()};
+  for (const ClosestPoint& point : found) {
+    if (point.obstacle == obstacle && point.distance < closest.distance) closest = point;
+  }
+  return closest;
+}
+
 /// Least exact distance over all links [m].
 double exact_distance(const Problem& problem, const ChainPose& pose, int obstacle) {
   double least = 1e9;
@@ -31,7 +44,7 @@ double exact_distance(const Problem& problem, const ChainPose& pose, int obstacl
   return least;
 }
 
-TEST(ClosestTestPoints, NeverFindsLessThanTheDistanceAndComesNearItWithManyPoints) {
+TEST(TestPointSearch, NeverFindsLessThanTheDistanceAndComesNearItWithManyPoints) {
   Generator generator(3);
   int compared = 0;
   std::map<int, double> total_excess;  // by number of points
@@ -45,9 +58,9 @@ TEST(ClosestTestPoints, NeverFindsLessThanTheDistanceAndComesNearItWithManyPoint
     if (exact == 0) continue;  // the distance to a surface that is crossed has no such meaning
     ++compared;
     for (const int points : {10, 100, 1000}) {
-      ClosestTestPoints search;
-      search.assign(problem, points, points, 0, counters);
-      const ClosestPair pair = search.search(pose, 0);
+      TestPointSearch search({points, points});
+      search.assign(problem, 0, counters);
+      const ClosestPoint pair = closest_to(search, pose, 0);
       const double excess = pair.distance - exact;
       EXPECT_GT(excess, -1e-9) << "trial " << trial << ", " << points << " points";
       total_excess[points] += excess;
@@ -61,13 +74,13 @@ TEST(ClosestTestPoints, NeverFindsLessThanTheDistanceAndComesNearItWithManyPoint
   EXPECT_LT(total_excess[1000], total_excess[100] / 5);
 }
 
-TEST(ClosestTestPoints, FindsThePairThatANaiveLoopFinds) {
+TEST(TestPointSearch, FindsThePairThatANaiveLoopFinds) {
   Generator generator(4);
   const Problem problem = test_support::planar_7r();
   constexpr int kN = 7, kM = 13;
   WorkCounters counters;
-  ClosestTestPoints search;
-  search.assign(problem, kN, kM, 0, counters);
+  TestPointSearch search({kN, kM});
+  search.assign(problem, 0, counters);
   for (int trial = 0; trial < 200; ++trial) {
     ChainPose pose;
     problem.chain.forward(random_joints(generator, 7), pose);
@@ -84,14 +97,20 @@ TEST(ClosestTestPoints, FindsThePairThatANaiveLoopFinds) {
         }
       }
     }
-    const ClosestPair pair = search.search(pose, 1);
-    EXPECT_NEAR(std::abs(pair.distance), least, 1e-12) << trial;
-    EXPECT_NEAR(pair.direction.norm(), 1, 1e-12) << trial;
+    std::vector<ClosestPoint> found;
+    search.search(pose, std::numeric_limits<double>::infinity(), found);
+    ASSERT_EQ(found.size(), 14U);
+    double found_least = 1e9;
+    for (const ClosestPoint& pair : found) {
+      if (pair.obstacle == 1) found_least = std::min(found_least, std::abs(pair.distance));
+      EXPECT_NEAR(pair.direction.norm(), 1, 1e-12) << trial;
+    }
+    EXPECT_NEAR(found_least, least, 1e-12) << trial;
   }
-  EXPECT_EQ(counters.point_pairs, 200U * 7 * kN * kM);
+  EXPECT_EQ(counters.point_pairs, 2 * 200U * 7 * kN * kM);  // of two obstacles
 }
 
-TEST(ClosestTestPoints, LeavesOutTheExemptEndOfTheLastLinkOnly) {
+TEST(TestPointSearch, LeavesOutTheExemptEndOfTheLastLinkOnly) {
   Problem problem = test_support::planar_7r();
   ChainPose pose;
   problem.chain.forward(problem.start, pose);
@@ -100,20 +119,20 @@ TEST(ClosestTestPoints, LeavesOutTheExemptEndOfTheLastLinkOnly) {
   const Eigen::Vector3d center = pose.tip() + 0.03 * direction;
   problem.obstacles = {{"ball", Ellipsoid(center, {0.02, 0.02, 0.02})}};
   WorkCounters counters;
-  ClosestTestPoints all, exempt;
-  all.assign(problem, 41, 100, 0, counters);
+  TestPointSearch all({41, 100}), exempt({41, 100});
+  all.assign(problem, 0, counters);
   const std::uint64_t before = counters.point_pairs;
-  exempt.assign(problem, 41, 100, 0.095, counters);
-  EXPECT_NEAR(all.search(pose, 0).distance, 0.01, 1e-3);
+  exempt.assign(problem, 0.095, counters);
+  EXPECT_NEAR(closest_to(all, pose, 0).distance, 0.01, 1e-3);
   const std::uint64_t pairs_of_all = counters.point_pairs - before;
-  const ClosestPair pair = exempt.search(pose, 0);
+  const ClosestPoint pair = closest_to(exempt, pose, 0);
   const std::uint64_t pairs_of_exempt = counters.point_pairs - before - pairs_of_all;
   EXPECT_EQ(problem.chain.links()[static_cast<std::size_t>(pair.link)].number, 7);
   EXPECT_NEAR(pair.distance, 0.11, 2e-3);
   EXPECT_EQ(pairs_of_all - pairs_of_exempt, 10U * 100U);
 }
 
-TEST(ClosestTestPoints, PointsOutwardsFromInsideToo) {
+TEST(TestPointSearch, PointsOutwardsFromInsideToo) {
   const Problem problem{
       .name = "inside",
       .chain = SerialChain(planar_chain({0.1, 0.1})),
@@ -121,14 +140,14 @@ TEST(ClosestTestPoints, PointsOutwardsFromInsideToo) {
   ChainPose pose;
   problem.chain.forward(JointVector::Zero(2), pose);
   WorkCounters counters;
-  ClosestTestPoints search;
-  search.assign(problem, 11, 720, 0, counters);
-  const ClosestPair pair = search.search(pose, 0);
+  TestPointSearch search({11, 720});
+  search.assign(problem, 0, counters);
+  const ClosestPoint pair = closest_to(search, pose, 0);
   EXPECT_LT(pair.distance, 0);
   EXPECT_GT(pair.direction.y(), 0.7);
 }
 
-TEST(ClosestTestPoints, OfAMovingObstacleAreThoseOfTheShapePutThere) {
+TEST(TestPointSearch, OfAMovingObstacleAreThoseOfTheShapePutThere) {
   Generator generator(6);
   for (const bool planar : {true, false}) {
     Problem problem = planar ? test_support::planar_7r() : test_support::puma560_ellipsoid();
@@ -146,16 +165,17 @@ TEST(ClosestTestPoints, OfAMovingObstacleAreThoseOfTheShapePutThere) {
       mover.motion.emplace_back(center, mover.shape.semi_axes(), turn.toRotationMatrix());
     }
     WorkCounters counters;
-    ClosestTestPoints moving;
-    moving.assign(problem, 11, 60, 0, counters);
+    TestPointSearch moving({11, 60});
+    moving.assign(problem, 0, counters);
     int inside = 0, outside = 0;
     for (const int tick : {0, 20, 7, 10, 3, 9, 11, 5}) {
       resting.obstacles[0].shape = mover.at(tick);
-      ClosestTestPoints there;
-      there.assign(resting, 11, 60, 0, counters);
+      TestPointSearch there({11, 60});
+      there.assign(resting, 0, counters);
       moving.go_to(tick);
       for (int j = 0; j < static_cast<int>(problem.obstacles.size()); ++j) {
-        const ClosestPair found = moving.search(pose, j), expected = there.search(pose, j);
+        const ClosestPoint found = closest_to(moving, pose, j);
+        const ClosestPoint expected = closest_to(there, pose, j);
         EXPECT_EQ(found.link, expected.link) << "tick " << tick;
         EXPECT_EQ(found.s, expected.s) << "tick " << tick;
         EXPECT_EQ(found.distance, expected.distance) << "tick " << tick;
