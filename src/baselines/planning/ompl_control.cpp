@@ -5,6 +5,8 @@
 #include <ompl/control/planners/rrt/RRT.h>
 #include <ompl/control/spaces/RealVectorControlSpace.h>
 
+#include <algorithm>
+
 #include "baselines/planning/ompl_planners.hpp"
 #include "baselines/planning/ompl_space.hpp"
 
@@ -24,7 +26,7 @@ double* values_of(ob::State* state) {
   return state->as<ob::RealVectorStateSpace::StateType>()->values;
 }
 
-/// What a state has for W s when the motion to it was not allowed.
+/// What a state has for W s when the motion to it was not allowed: beyond the bounds of states.
 constexpr double kNoState = -1;
 
 /// One tick with a joint velocity: its self-motion is made, and the tip put onto the path. Planners
@@ -98,7 +100,8 @@ std::vector<TimedPosture> plan_with_controls(PlanningScene& scene, const TimedPo
   const auto controls = std::make_shared<oc::RealVectorControlSpace>(space, joints);
   ob::RealVectorBounds velocities(joints);
   for (unsigned j = 0; j < joints; ++j) {
-    const double fastest = scene.largest_way(static_cast<int>(j), 1) / problem.dt;
+    const double fastest =
+        std::min(settings.self_motion, scene.largest_way(static_cast<int>(j), 1) / problem.dt);
     velocities.setLow(j, -fastest);
     velocities.setHigh(j, fastest);
   }
@@ -109,7 +112,7 @@ std::vector<TimedPosture> plan_with_controls(PlanningScene& scene, const TimedPo
   information->setPropagationStepSize(1);  // [ticks]
   information->setMinMaxControlDuration(1, static_cast<unsigned>(settings.hold_ticks));
   information->setStateValidityChecker(
-      [](const ob::State* state) { return Values()(state)[0] >= 0; });
+      [&](const ob::State* state) { return space->satisfiesBounds(state); });
   information->setup();
 
   ob::ScopedState<ob::RealVectorStateSpace> start(space);

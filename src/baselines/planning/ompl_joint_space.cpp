@@ -83,8 +83,7 @@ ob::GoalPtr goals_of(PlanningScene& scene, const ob::SpaceInformationPtr& inform
 
 }  // namespace
 
-std::vector<JointVector> plan_in_joint_space(PlanningScene& scene, double range,
-                                             const Stop& stop) {
+std::vector<JointVector> plan_in_joint_space(PlanningScene& scene, double range, const Stop& stop) {
   const Problem& problem = scene.problem();
   const int joints = problem.chain.joints();
   const auto space = std::make_shared<ob::RealVectorStateSpace>(static_cast<unsigned>(joints));

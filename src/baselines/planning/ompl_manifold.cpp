@@ -5,10 +5,9 @@
 #include <ompl/geometric/PathGeometric.h>
 #include <ompl/geometric/PathSimplifier.h>
 #include <ompl/geometric/planners/kpiece/KPIECE1.h>
-#include <ompl/geometric/planners/rrt/RRT.h>
 
 #include <algorithm>
-#include <cassert>
+#include <utility>
 
 #include "baselines/planning/ompl_planners.hpp"
 #include "baselines/planning/ompl_space.hpp"
@@ -89,8 +88,8 @@ class ForwardSampler final : public ob::ProjectedStateSampler {
     const Problem& problem = scene.problem();
     const TimedPosture from = manifold_.read(near);
     const int tick = manifold_.scale.nearest_tick(from.t);
-    const int most = std::max(1, static_cast<int>(distance / manifold_.scale.scale *
-                                                  static_cast<double>(problem.ticks)));
+    const int most = std::max(
+        1, static_cast<int>(distance / manifold_.scale.scale * static_cast<double>(problem.ticks)));
     const int ticks = std::min(rng_.uniformInt(1, most), problem.ticks - tick);
     TimedPosture to = from;
     if (ticks > 0) {
@@ -215,18 +214,6 @@ class HopValidator final : public ob::MotionValidator {
   const Manifold& manifold_;
 };
 
-ob::PlannerPtr planner_of(const ConstrainedSettings& settings,
-                          const ob::SpaceInformationPtr& information) {
-  if (settings.planner == ConstrainedPlanner::kRrt) {
-    const auto rrt = std::make_shared<og::RRT>(information);
-    rrt->setRange(settings.range);
-    return rrt;
-  }
-  const auto kpiece = std::make_shared<og::KPIECE1>(information);
-  kpiece->setRange(settings.range);
-  return kpiece;
-}
-
 }  // namespace
 
 std::vector<TimedPosture> plan_on_manifold(PlanningScene& scene, const TimedPosture& first,
@@ -236,8 +223,8 @@ std::vector<TimedPosture> plan_on_manifold(PlanningScene& scene, const TimedPost
 
   // Samples beyond the end of the path are clamped onto it; without them it is never reached.
   constexpr double kBeyondTheEnd = 1.25;
-  const auto ambient = std::make_shared<ob::RealVectorStateSpace>(
-      static_cast<unsigned>(problem.chain.joints()) + 1);
+  const auto ambient =
+      std::make_shared<ob::RealVectorStateSpace>(static_cast<unsigned>(problem.chain.joints()) + 1);
   ambient->setBounds(bounds_of(problem, settings.time_scale, kBeyondTheEnd));
   const auto space =
       std::make_shared<PathSpace>(ambient, std::make_shared<TipOnPath>(manifold), manifold);
@@ -257,7 +244,9 @@ std::vector<TimedPosture> plan_on_manifold(PlanningScene& scene, const TimedPost
   definition->setGoal(std::make_shared<EndOfPath<Values>>(information, settings.time_scale));
 
   const ob::PlannerTerminationCondition condition(stop);
-  const ob::PlannerPtr planner = planner_of(settings, information);
+  const auto kpiece = std::make_shared<og::KPIECE1>(information);
+  kpiece->setRange(settings.range);
+  const ob::PlannerPtr planner = kpiece;
   planner->setProblemDefinition(definition);
   planner->setup();
   if (planner->solve(condition) != ob::PlannerStatus::EXACT_SOLUTION) return {};

@@ -51,6 +51,11 @@ class PlanningScene {
   /// joint limits.
   bool allows(const TimedPosture& from, const TimedPosture& to);
 
+  /// Whether the straight joint motion is free of the obstacles as they are at t = 0.
+  bool is_free_at_rest(const JointVector& q0, const JointVector& q1) {
+    return with_reserve_.is_free(0, q0, 0, q1);
+  }
+
   /// Where planning begins: the first tick, at which the start's own tip error is gone.
   /// @return whether the motion to it is allowed
   bool first_tick(TimedPosture& first);
