@@ -47,7 +47,8 @@ MethodEntry plain_tracking_method() {
                            .spatial = true,
                            .link_radius = true,
                            .margin = true,
-                           .moving = true},
+                           .moving = true,
+                           .keeps_limits = false},
           .parameters = {},
           .make = [](const ParameterValues&) { return std::make_unique<PlainTracking>(); }};
 }

@@ -24,6 +24,9 @@ struct Capabilities {
   bool margin = false;       ///< takes problems that ask for a margin
   bool moving = false;       ///< takes problems with moving obstacles
   bool plans = false;        ///< is a PlanningMethod, else a ReactiveMethod
+
+  /// Never exceeds joint limits or the largest step of a tick; gives up instead, if need be.
+  bool keeps_limits = true;
 };
 
 /// Why a method does not apply to a problem; empty if it does.

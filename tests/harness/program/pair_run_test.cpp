@@ -57,7 +57,7 @@ std::set<std::string> documented_keys() {
   all.merge(with_prefix("problem.",
                         "dimension joints links obstacles[] nk ticks dt_s tolerance_m margin_m "
                         "link_radius_m"));
-  all.merge(with_prefix("method.", "name variant changed parameters"));
+  all.merge(with_prefix("method.", "name variant changed seed parameters"));
   all.merge(with_prefix("claimed.", "status tick reason link obstacle class nearest_free_rad"));
   all.merge(with_prefix("judged.",
                         "success failures[] rows disagreement touching clearance_at_ticks_m "
@@ -77,11 +77,11 @@ std::set<std::string> documented_keys() {
   all.merge(with_prefix("times.",
                         "valid publishable against[] construct_s prepare_s plan_s first_step_s "
                         "warm_steps warm_median_s warm_p99_s warm_p999_s warm_max_s warm_max_tick "
-                        "warm_max_q_rad[] warm_histogram[][] run_s"));
+                        "warm_max_q_rad[] warm_histogram[][] run_s cpu_s hidden_cpu_s"));
   all.merge(with_prefix("provenance.",
                         "version commit dirty compiler build_type flags assertions sanitizers "
                         "libraries processor cores governor load_average os date seed "
-                        "plan_budget_s command_line"));
+                        "plan_budget_s isolated wall_limit_s memory_limit_bytes command_line"));
   return all;
 }
 
