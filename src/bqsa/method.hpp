@@ -23,6 +23,7 @@ struct Capabilities {
   bool link_radius = false;  ///< takes problems whose links have a radius
   bool margin = false;       ///< takes problems that ask for a margin
   bool moving = false;       ///< takes problems with moving obstacles
+  bool plans = false;        ///< is a PlanningMethod, else a ReactiveMethod
 };
 
 /// Why a method does not apply to a problem; empty if it does.

@@ -4,10 +4,14 @@
 #include <cassert>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <exception>
 #include <limits>
 #include <memory>
+#include <new>
 #include <numeric>
+
+#include "harness/fingerprint.hpp"
 
 namespace bqsa::harness {
 namespace {
@@ -18,6 +22,35 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+double cpu_seconds(clockid_t clock) {
+  timespec time{};
+  clock_gettime(clock, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// Processor time of the process and of this thread from here on.
+class CpuMeter {
+ public:
+  double of_all_threads() const { return cpu_seconds(CLOCK_PROCESS_CPUTIME_ID) - process_; }
+  double of_this_thread() const { return cpu_seconds(CLOCK_THREAD_CPUTIME_ID) - thread_; }
+
+ private:
+  double process_ = cpu_seconds(CLOCK_PROCESS_CPUTIME_ID);
+  double thread_ = cpu_seconds(CLOCK_THREAD_CPUTIME_ID);
+};
+
+/// Other threads may use as much, for the clocks of process and thread are not read at once.
+bool is_hidden(double other_threads_s, double all_threads_s) {
+  constexpr double kUnnoticed = 0.01;       // [s]
+  constexpr double kUnnoticedShare = 0.02;  // of all threads
+  return other_threads_s > kUnnoticed + kUnnoticedShare * all_threads_s;
+}
+
+bool same(const StepInput& a, const StepInput& b) {
+  return a.tick == b.tick && a.t == b.t && a.p_WT_desired == b.p_WT_desired &&
+         a.q.size() == b.q.size() && a.q == b.q;
 }
 
 /// Ticks in which each link-obstacle pair was cleared; storage for all pairs is taken at once.
@@ -159,9 +192,10 @@ void count_clamps(const StepOutput& output, int tick, RunOutcome& outcome, TickL
 
 /// The control loop; `outcome.tick` is the tick in progress.
 void follow(ReactiveMethod& method, const Problem& problem, JointSensors& sensors,
-            RunOutcome& outcome, TickLog& log) {
+            RunOutcome& outcome, TickLog& log, RunProgress* progress) {
   Trajectory& trajectory = outcome.trajectory;
   StepInput input;
+  StepInput given;
   StepOutput output;
   for (int tick = 1; tick <= problem.ticks; ++tick) {
     outcome.tick = tick;
@@ -169,11 +203,14 @@ void follow(ReactiveMethod& method, const Problem& problem, JointSensors& sensor
     input.t = problem.time(tick);
     input.p_WT_desired = problem.desired_tip(input.t);
     input.q = sensors.reading(trajectory.q);
+    given = input;
     output = {};
+    if (progress) progress->begin_tick(tick);
 
     const Clock::time_point start = Clock::now();
-    method.step(input, output);
+    method.step(given, output);
     log.add_step(input, seconds_since(start));
+    if (!same(given, input)) outcome.inputs_changed = true;
 
     outcome.message = fault_of(output, problem);
     const bool usable = outcome.message.empty();
@@ -187,6 +224,7 @@ void follow(ReactiveMethod& method, const Problem& problem, JointSensors& sensor
     if (output.q.size() == problem.chain.joints()) {
       trajectory.t.push_back(input.t);
       trajectory.q.push_back(sensors.executed(output.q));
+      if (progress) progress->add_row(trajectory.q.back());
     }
     if (!usable) {
       outcome.claim = Claim::kCrashed;
@@ -202,7 +240,8 @@ void follow(ReactiveMethod& method, const Problem& problem, JointSensors& sensor
 
 void make_and_run(const Problem& problem, const MethodEntry& entry,
                   const ParameterValues& parameters, const RunSettings& settings,
-                  std::unique_ptr<Method>& method, RunOutcome& outcome, TickLog& log) {
+                  std::unique_ptr<Method>& method, RunOutcome& outcome, TickLog& log,
+                  RunProgress* progress) {
   Clock::time_point start = Clock::now();
   method = entry.make(parameters);
   outcome.times.construct_s = seconds_since(start);
@@ -211,16 +250,22 @@ void make_and_run(const Problem& problem, const MethodEntry& entry,
   method->prepare(problem);
   outcome.times.prepare_s = seconds_since(start);
 
-  if (auto* planner = dynamic_cast<PlanningMethod*>(method.get())) {
+  if (entry.capabilities.plans) {
     assert(!settings.disturbance.on());
     start = Clock::now();
-    PlanningMethod::Plan plan = planner->plan(settings.plan_budget_s, settings.seed);
+    PlanningMethod::Plan plan =
+        dynamic_cast<PlanningMethod&>(*method).plan(settings.plan_budget_s, settings.seed);
     outcome.times.plan_s = seconds_since(start);
     outcome.claim = plan.solved ? Claim::kSuccess : Claim::kUnsolved;
     outcome.trajectory = std::move(plan.trajectory);
+    if (outcome.times.plan_s > settings.plan_budget_s + RunSettings::kPlanGrace) {
+      outcome.claim = Claim::kTimedOut;
+      outcome.message = "planned for " + std::to_string(outcome.times.plan_s) +
+                        " s, allowed were " + std::to_string(settings.plan_budget_s) + " s";
+    }
   } else {
     JointSensors sensors(settings.disturbance, settings.seed, problem.name);
-    follow(dynamic_cast<ReactiveMethod&>(*method), problem, sensors, outcome, log);
+    follow(dynamic_cast<ReactiveMethod&>(*method), problem, sensors, outcome, log, progress);
   }
 }
 
@@ -235,12 +280,15 @@ RunTimes::RunTimes()
       warm_p99_s(kNone),
       warm_p999_s(kNone),
       warm_max_s(kNone),
-      run_s(kNone) {}
+      run_s(kNone),
+      cpu_s(kNone),
+      hidden_cpu_s(kNone) {}
 
 TickIncrements::TickIncrements() : mean(kNone), median(kNone), p99(kNone) {}
 
 RunOutcome run_method(const Problem& problem, const MethodEntry& entry,
-                      const ParameterValues& parameters, const RunSettings& settings) {
+                      const ParameterValues& parameters, const RunSettings& settings,
+                      RunProgress* progress) {
   // The control loop takes no memory of its own: everything it fills is reserved here.
   const auto ticks = static_cast<std::size_t>(problem.ticks);
   RunOutcome outcome;
@@ -249,11 +297,16 @@ RunOutcome run_method(const Problem& problem, const MethodEntry& entry,
   outcome.trajectory.t.push_back(0);
   outcome.trajectory.q.push_back(problem.start);
   TickLog log(problem);
+  const std::uint64_t problem_before = fingerprint(problem);
 
   std::unique_ptr<Method> method;
+  const CpuMeter cpu;
   const Clock::time_point start = Clock::now();
   try {
-    make_and_run(problem, entry, parameters, settings, method, outcome, log);
+    make_and_run(problem, entry, parameters, settings, method, outcome, log, progress);
+  } catch (const std::bad_alloc&) {
+    outcome.claim = Claim::kOutOfMemory;
+    outcome.message = "asked for more memory than there was";
   } catch (const std::exception& error) {
     outcome.claim = Claim::kCrashed;
     outcome.message = error.what();
@@ -262,20 +315,15 @@ RunOutcome run_method(const Problem& problem, const MethodEntry& entry,
     outcome.message = "threw something that is not a std::exception";
   }
   outcome.times.run_s = seconds_since(start);
+  outcome.times.cpu_s = cpu.of_all_threads();
+  outcome.times.hidden_cpu_s = std::max(outcome.times.cpu_s - cpu.of_this_thread(), 0.0);
+  outcome.work_hidden = is_hidden(outcome.times.hidden_cpu_s, outcome.times.cpu_s);
+  if (fingerprint(problem) != problem_before) outcome.inputs_changed = true;
   if (method) outcome.counters = method->counters();
   outcome.clamped_pairs = log.tally.pairs();
   summarize(log, outcome.times);
   summarize(log.increments, outcome.increments);
   return outcome;
-}
-
-bool is_reactive(const MethodEntry& entry, const ParameterValues& parameters) {
-  try {
-    const std::unique_ptr<Method> method = entry.make(parameters);
-    return dynamic_cast<PlanningMethod*>(method.get()) == nullptr;
-  } catch (...) {
-    return true;
-  }
 }
 
 double quantile_of(const std::vector<double>& sorted, double share) {
@@ -304,6 +352,10 @@ const char* name_of(Claim claim) {
       return "unsolved";
     case Claim::kCrashed:
       return "crashed";
+    case Claim::kTimedOut:
+      return "timed out";
+    case Claim::kOutOfMemory:
+      return "out of memory";
   }
   return "?";
 }

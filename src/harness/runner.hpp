@@ -9,6 +9,7 @@
 #include "bqsa/method.hpp"
 #include "harness/disturbance.hpp"
 #include "harness/log_histogram.hpp"
+#include "harness/run_progress.hpp"
 
 namespace bqsa::harness {
 
@@ -18,12 +19,18 @@ enum class Claim {
   kNothing,     ///< went to the end, with ticks whose motion it does not claim to be free
   kInfeasible,  ///< a reactive method gave up at a tick
   kUnsolved,    ///< a planning method found no plan
-  kCrashed,     ///< an exception, or an answer that cannot be used
+  kCrashed,     ///< an exception, a signal, or an answer that cannot be used
+  kTimedOut,    ///< it had to be stopped, or its plan came too late
+  kOutOfMemory,
 };
 
 struct RunSettings {
-  std::uint64_t seed = 1;        ///< of all randomness: of a planning method, of the noise
-  double plan_budget_s = 10;     ///< wall time that a planning method may use [s]
+  std::uint64_t seed = 1;     ///< of all randomness: of a planning method, of the noise
+  double plan_budget_s = 10;  ///< wall time that a planning method may use [s]
+
+  /// A plan that takes this much longer than its budget is too late [s].
+  static constexpr double kPlanGrace = 1;
+
   Disturbance disturbance = {};  ///< of reactive methods; planning methods must not be run with one
 };
 
@@ -43,6 +50,8 @@ struct RunTimes {
   JointVector warm_max_q;       ///< StepInput::q of that tick [rad]
   LogHistogram warm_histogram;  ///< of all warm steps; its unit is kHistogramUnit
   double run_s;                 ///< from the construction to the last answer
+  double cpu_s;                 ///< processor time of all threads in that time
+  double hidden_cpu_s;          ///< of it, that of threads other than the one that was asked
 
   static constexpr double kHistogramUnit = 1e-9;  ///< [s]
 
@@ -74,7 +83,10 @@ struct RunOutcome {
   Infeasible reason = Infeasible::kNot;
   int link = 0;         ///< infeasible: the link that could not be freed, else 0
   int obstacle = -1;    ///< infeasible: index of its obstacle, else -1
-  std::string message;  ///< crashed: what happened
+  std::string message;  ///< crashed, timed out or out of memory: what happened
+
+  bool inputs_changed = false;  ///< the method wrote into the problem or into what a step was told
+  bool work_hidden = false;     ///< it used the processor beyond what its times show
 
   int free_ticks = 0;
   int clamped_ticks = 0;
@@ -96,11 +108,12 @@ struct RunOutcome {
 /// answer (wrong number of joint angles, one that is not finite, a link or obstacle that does not
 /// exist); a row with joint angles that are not finite is kept for the judge. The trajectory is what
 /// the arm executed. A plan is kept as it is. Exceptions of the method end up in the outcome.
+/// Whatever the method does to the problem, the path that the harness asks for is read from it: run
+/// untrusted methods by run_isolated().
+/// @param progress  if given, told of every tick
 RunOutcome run_method(const Problem& problem, const MethodEntry& method,
-                      const ParameterValues& parameters, const RunSettings& settings = {});
-
-/// Whether the method answers tick by tick, or cannot be made, which run_method() will report.
-bool is_reactive(const MethodEntry& method, const ParameterValues& parameters);
+                      const ParameterValues& parameters, const RunSettings& settings = {},
+                      RunProgress* progress = nullptr);
 
 /// Whether the claim and the verdict agree; a method that claims nothing is never wrong.
 bool claim_holds(Claim claim, bool judged_success);

@@ -53,7 +53,7 @@ TEST(MaciejewskiKlein, WithTestPointsIsTestPointWhereNothingMovesAndNoStepIsTooL
   }
 }
 
-/// The same scene seen from another frame, planar and spatial, with all that a problem may have.
+/// Planar and spatial problems with all that a problem may have.
 TEST(ClosestPointMethods, RefuseNothingAndCountWhatTheyDo) {
   test_support::Generator generator(7);
   int used = 0;
@@ -89,6 +89,21 @@ TEST(ClosestPointMethods, RefuseNothingAndCountWhatTheyDo) {
     }
   }
   EXPECT_GT(used, 30);
+}
+
+TEST(ClosestPointMethods, MakeEachJacobianOnceATickHoweverManyPointsAct) {
+  Problem problem = planar_7r(400);
+  problem.ticks = 300;
+  Problem doubled = problem;
+  for (const Obstacle& obstacle : problem.obstacles) doubled.obstacles.push_back(obstacle);
+  // Without gain the two arms move alike.
+  const Settings settings = {{"gradient_gain", "0"}, {"influence", "0.2"}, {"points", "all"}};
+  const auto once = make(fcl_gp_method(), settings), twice = make(fcl_gp_method(), settings);
+  const Replay run = replay(*once, problem);
+  replay(*twice, doubled);
+  EXPECT_GT(run.clamped_ticks, 100);
+  EXPECT_GT(once->counters().jacobians, 400U);
+  EXPECT_EQ(once->counters().jacobians, twice->counters().jacobians);
 }
 
 /// The null-space step is scaled so that limits hold: the methods never give up for its sake.

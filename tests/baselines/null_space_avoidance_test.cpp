@@ -39,6 +39,20 @@ TEST(SelfMotions, ProjectLikeThePseudoInverseSingularArmsIncluded) {
   }
 }
 
+TEST(SelfMotions, DoNotMoveTheTipThoughRowsBeNearlyDependent) {
+  Generator generator(7);
+  for (int trial = 0; trial < 500; ++trial) {
+    TaskJacobian J = TaskJacobian::NullaryExpr(
+        3, 7, [&](Eigen::Index, Eigen::Index) { return uniform(generator, -1, 1); });
+    J.row(1) = J.row(0) + 1e-7 * J.row(1);
+    SelfMotions self_motions;
+    self_motions.assign(J);
+    const JointVector projected = self_motions.project(random_joints(generator, 7));
+    EXPECT_LT((self_motions.project(projected) - projected).norm(), 1e-14) << trial;
+    EXPECT_LT((J * projected).norm(), 1e-14) << trial;
+  }
+}
+
 TEST(AvoidanceLaws, AreTheFormulasWrittenOut) {
   const AvoidanceSettings settings{.influence = 0.06,
                                    .full_distance = 0.02,

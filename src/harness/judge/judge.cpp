@@ -297,6 +297,16 @@ const char* name_of(Failure failure) {
   switch (failure) {
     case Failure::kDisagreement:
       return "disagreement";
+    case Failure::kInputsChanged:
+      return "inputs_changed";
+    case Failure::kWorkHidden:
+      return "work_hidden";
+    case Failure::kTimedOut:
+      return "timed_out";
+    case Failure::kOutOfMemory:
+      return "out_of_memory";
+    case Failure::kCrashed:
+      return "crashed";
     case Failure::kNotFinite:
       return "not_finite";
     case Failure::kIncomplete:

@@ -14,17 +14,23 @@
 
 namespace bqsa::harness {
 
-/// Ways to fail. A run succeeds when none applies.
+/// Ways to fail. A run succeeds when none applies. The judge finds those of the trajectory; those of
+/// conduct are found by the harness while the method runs (add_conduct()).
 enum class Failure {
-  kDisagreement,  ///< FCL and the exact distance contradict each other beyond the touching band
-  kNotFinite,     ///< a number that is not finite
-  kIncomplete,    ///< rows missing (a method that stopped) or too many, or wrong times or width
-  kWrongStart,    ///< row 0 is not the problem's start
-  kCollision,     ///< a link in an obstacle, at or between ticks
-  kUndecided,     ///< freedom between ticks could not be proven within the limit on subdivisions
-  kJump,          ///< a joint step beyond the velocity limit (default 15 degrees a tick)
-  kJointLimit,    ///< a joint beyond its limits
-  kDrift,         ///< tip error at a tick beyond the scenario's tolerance
+  kDisagreement,   ///< FCL and the exact distance contradict each other beyond the touching band
+  kInputsChanged,  ///< conduct: the method wrote into the problem or into what a step was told
+  kWorkHidden,     ///< conduct: it used the processor beyond what its times show
+  kTimedOut,       ///< conduct: it had to be stopped, or its plan came too late
+  kOutOfMemory,    ///< conduct: it needed more memory than allowed
+  kCrashed,        ///< conduct: it threw, or its process died, after a trajectory without fault
+  kNotFinite,      ///< a number that is not finite
+  kIncomplete,     ///< rows missing (a method that stopped) or too many, or wrong times or width
+  kWrongStart,     ///< row 0 is not the problem's start
+  kCollision,      ///< a link in an obstacle, at or between ticks
+  kUndecided,      ///< freedom between ticks could not be proven within the limit on subdivisions
+  kJump,           ///< a joint step beyond the velocity limit (default 15 degrees a tick)
+  kJointLimit,     ///< a joint beyond its limits
+  kDrift,          ///< tip error at a tick beyond the scenario's tolerance
 };
 
 /// A link in an obstacle. Names as in the paper: (6, obstacle).

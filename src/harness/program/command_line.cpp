@@ -20,6 +20,9 @@ constexpr const char* kFooter =
 constexpr int kMostGenerated = 100'000;  // the index in a name has five digits
 
 constexpr double kMostNoise = 1;  // [rad]
+constexpr int kMostSeeds = 10'000;
+constexpr double kMostSeconds = 1e6;
+constexpr int kMostMebibytes = 1 << 24;
 
 /// A word of the command line as a shell would need it.
 std::string quoted(std::string_view word) {
@@ -109,6 +112,21 @@ void declare(CLI::App& app, CommandLine& line) {
                 "Tell reactive methods the joint angles of one tick ago");
   run->add_option("--seed", line.run.seed, "Seed of the noise and of planning methods [1]")
       ->check(CLI::NonNegativeNumber);
+  run->add_option(
+         "--seeds", line.run.seeds,
+         "Run planning methods so many times, with --seed and the seeds that follow it [1]")
+      ->check(CLI::Range(1, kMostSeeds));
+  run->add_option("--plan-budget", line.run.plan_budget,
+                  "Wall time that planning methods may use for a plan [s] [10]")
+      ->check(CLI::Range(1e-3, kMostSeconds));
+  run->add_option("--time-limit", line.run.time_limit,
+                  "Wall time after which a run is stopped [s] [120]")
+      ->check(CLI::Range(1e-2, kMostSeconds));
+  run->add_option("--memory-limit", line.run.memory_limit,
+                  "Memory that a run may have beyond the program's own [MiB] [4096]")
+      ->check(CLI::Range(1, kMostMebibytes));
+  run->add_flag("--in-process", line.run.in_process,
+                "Run methods in this process, without limits, for a profiler or debugger");
   add_report_options(*run, line.run.report);
   run->callback([&line] {
     line.command = [&line](const Console& console) { return run_command(line.run, console); };

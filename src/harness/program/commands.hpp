@@ -49,6 +49,11 @@ struct RunOptions {
   double joint_noise = 0;    ///< Disturbance::joint_noise [rad]
   bool latency = false;      ///< of one tick
   std::uint64_t seed = 1;
+  int seeds = 1;            ///< planning methods run once with each of seed, seed + 1, ...
+  double plan_budget = 10;  ///< of planning methods [s]
+  double time_limit = 120;  ///< of a run [s]
+  int memory_limit = 4096;  ///< of a run [MiB]
+  bool in_process = false;  ///< without a process of its own and without limits
   ReportOptions report;
   std::string command_line;  ///< as recorded
 };

@@ -114,10 +114,19 @@ Circumstances circumstances_of(const RunOptions& options) {
     throw InputError("--joint-noise: expected a standard deviation [rad], got no finite number");
   }
   return {.settings = {.seed = options.seed,
+                       .plan_budget_s = options.plan_budget,
                        .disturbance = {.joint_noise = options.joint_noise,
                                        .latency_ticks = options.latency ? 1 : 0}},
           .command_line = options.command_line,
-          .store_trajectories = options.trajectories};
+          .store_trajectories = options.trajectories,
+          .limits = {.wall_s = options.time_limit,
+                     .memory_bytes = static_cast<std::uint64_t>(options.memory_limit) << 20U},
+          .in_process = options.in_process};
+}
+
+/// How often a method runs on each scenario.
+std::uint64_t seeds_of(const MethodSpec& spec, const RunOptions& options) {
+  return spec.entry.capabilities.plans ? static_cast<std::uint64_t>(options.seeds) : 1;
 }
 
 }  // namespace
@@ -156,10 +165,15 @@ Status run_command(const RunOptions& options, const Console& console) {
   };
   {
     // Scenarios are loaded one at a time: thousands of them do not have to fit into memory.
-    Progress progress(console, !options.quiet, files.size() * specs.size());
-    const auto run_one = [&](const Scenario& scenario, const Judge& judge, const MethodSpec& spec) {
+    std::size_t runs = 0;
+    for (const MethodSpec& spec : specs) runs += files.size() * seeds_of(spec, options);
+    Progress progress(console, !options.quiet, runs);
+    const auto run_one = [&](const Scenario& scenario, const Judge& judge, const MethodSpec& spec,
+                             std::uint64_t seed) {
       progress.next(scenario.problem.name + " " + variant_name(spec));
-      const StoredRun run = run_pair(scenario, judge, spec, circumstances, store);
+      Circumstances seeded = circumstances;
+      seeded.settings.seed = seed;
+      const StoredRun run = run_pair(scenario, judge, spec, seeded, store);
       rows.push_back(parse_run_record(run.record));
       if (!run.trajectory_error.empty()) throw InputError(run.trajectory_error);
     };
@@ -167,7 +181,11 @@ Status run_command(const RunOptions& options, const Console& console) {
       reporting([&] {
         const Scenario scenario = load_scenario(file);
         const Judge judge(scenario.problem);
-        for (const MethodSpec& spec : specs) reporting([&] { run_one(scenario, judge, spec); });
+        for (const MethodSpec& spec : specs) {
+          for (std::uint64_t k = 0; k < seeds_of(spec, options); ++k) {
+            reporting([&] { run_one(scenario, judge, spec, options.seed + k); });
+          }
+        }
       });
     }
   }

@@ -1,12 +1,15 @@
 #include "harness/results/pair_run.hpp"
 
+#include <algorithm>
+#include <vector>
+
 namespace bqsa::harness {
 namespace {
 
 std::string why_not_run(const Problem& problem, const MethodSpec& method,
                         const Disturbance& disturbance) {
   std::string why = why_not_applicable(method.entry.capabilities, problem);
-  if (why.empty() && disturbance.on() && !is_reactive(method.entry, method.parameters)) {
+  if (why.empty() && disturbance.on() && method.entry.capabilities.plans) {
     why = "noise and latency disturb methods that answer tick by tick, this one plans";
   }
   return why;
@@ -15,6 +18,26 @@ std::string why_not_run(const Problem& problem, const MethodSpec& method,
 std::optional<Diagnosis> diagnosis_of(const Problem& problem, const RunOutcome& outcome) {
   if (outcome.claim != Claim::kInfeasible) return std::nullopt;
   return diagnose(problem, outcome.tick, outcome.reason, outcome.trajectory.q.back());
+}
+
+/// Conduct counts as much as the trajectory: what the harness saw of it joins the failures.
+void add_conduct(const RunOutcome& outcome, Judgement& judgement) {
+  std::vector<Failure>& failures = judgement.failures;
+  if (outcome.inputs_changed) failures.push_back(Failure::kInputsChanged);
+  if (outcome.work_hidden) failures.push_back(Failure::kWorkHidden);
+  if (outcome.claim == Claim::kTimedOut) failures.push_back(Failure::kTimedOut);
+  if (outcome.claim == Claim::kOutOfMemory) failures.push_back(Failure::kOutOfMemory);
+  if (outcome.claim == Claim::kCrashed && failures.empty()) failures.push_back(Failure::kCrashed);
+  std::sort(failures.begin(), failures.end());
+}
+
+RunOutcome run_outcome(const Problem& problem, const MethodSpec& method,
+                       const Circumstances& circumstances) {
+  const RunSettings& settings = circumstances.settings;
+  if (circumstances.in_process) {
+    return run_method(problem, method.entry, method.parameters, settings);
+  }
+  return run_isolated(problem, method.entry, method.parameters, settings, circumstances.limits);
 }
 
 }  // namespace
@@ -27,11 +50,11 @@ StoredRun run_pair(const Scenario& scenario, const Judge& judge, const MethodSpe
   StoredRun run;
   std::unique_ptr<StagedTextFile> staged;
   if (why_not.empty()) {
-    const RunOutcome outcome =
-        run_method(problem, method.entry, method.parameters, circumstances.settings);
-    const Judgement judgement = judge.judge(outcome.trajectory);
+    const RunOutcome outcome = run_outcome(problem, method, circumstances);
+    Judgement judgement = judge.judge(outcome.trajectory);
+    add_conduct(outcome, judgement);
     const std::string file =
-        ResultStore::trajectory_file(problem.name, variant_name(method, circumstances.settings));
+        ResultStore::trajectory_file(problem.name, run_name(method, circumstances.settings));
     try {
       if (circumstances.store_trajectories) {
         staged = store.stage_trajectory(file, outcome.trajectory);

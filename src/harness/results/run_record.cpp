@@ -1,5 +1,7 @@
 #include "harness/results/run_record.hpp"
 
+#include <fmt/core.h>
+
 #include <nlohmann/json.hpp>
 
 namespace bqsa::harness {
@@ -43,6 +45,7 @@ Json method_json(const MethodSpec& method, const RunSettings& settings) {
   return {{"name", method.entry.name},
           {"variant", variant_name(method, settings)},
           {"changed", changed_parameters(method.parameters)},
+          {"seed", method.entry.capabilities.plans ? Json(settings.seed) : Json()},
           {"parameters", parameters}};
 }
 
@@ -64,7 +67,8 @@ Json claimed_json(const Problem& problem, const RunOutcome& outcome,
       claimed["class"] = name_of(diagnosis->failure);
       claimed["nearest_free_rad"] = diagnosis->nearest_free;
     }
-  } else if (outcome.claim == Claim::kCrashed) {
+  } else if (outcome.claim == Claim::kCrashed || outcome.claim == Claim::kTimedOut ||
+             outcome.claim == Claim::kOutOfMemory) {
     claimed["tick"] = outcome.tick;
     claimed["message"] = outcome.message;
   }
@@ -165,7 +169,9 @@ Json times_json(const RunTimes& times, bool success, const MachineState& machine
           {"warm_max_tick", times.warm_max_tick},
           {"warm_max_q_rad", worst_q},
           {"warm_histogram", histogram_json(times.warm_histogram)},
-          {"run_s", times.run_s}};
+          {"run_s", times.run_s},
+          {"cpu_s", times.cpu_s},
+          {"hidden_cpu_s", times.hidden_cpu_s}};
 }
 
 Json provenance_json(const MachineState& machine, const Circumstances& circumstances) {
@@ -189,6 +195,9 @@ Json provenance_json(const MachineState& machine, const Circumstances& circumsta
           {"date", machine.date},
           {"seed", circumstances.settings.seed},
           {"plan_budget_s", circumstances.settings.plan_budget_s},
+          {"isolated", !circumstances.in_process},
+          {"wall_limit_s", circumstances.limits.wall_s},
+          {"memory_limit_bytes", circumstances.limits.memory_bytes},
           {"command_line", circumstances.command_line}};
 }
 
@@ -214,6 +223,13 @@ std::string one_line(const Json& record) {
 
 std::string variant_name(const MethodSpec& method, const RunSettings& settings) {
   return variant_name(method) + suffix_of(settings.disturbance, settings.seed);
+}
+
+std::string run_name(const MethodSpec& method, const RunSettings& settings) {
+  std::string name = variant_name(method, settings);
+  if (method.entry.capabilities.plans && settings.seed != RunSettings{}.seed)
+    name += fmt::format("+seed={}", settings.seed);
+  return name;
 }
 
 std::string run_record(const Scenario& scenario, const MethodSpec& method,

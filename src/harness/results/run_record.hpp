@@ -6,6 +6,7 @@
 #include <string>
 
 #include "harness/failure_class.hpp"
+#include "harness/isolated_run.hpp"
 #include "harness/judge/judge.hpp"
 #include "harness/method_spec.hpp"
 #include "harness/results/provenance.hpp"
@@ -19,11 +20,17 @@ struct Circumstances {
   RunSettings settings;
   std::string command_line;
   bool store_trajectories = true;
+  RunLimits limits = {};    ///< of each run
+  bool in_process = false;  ///< run in this process and without limits, for profiling
 };
 
 /// Name of a method as it ran, in records, tables and file names: variant_name(), and what disturbed
 /// it.
 std::string variant_name(const MethodSpec& method, const RunSettings& settings);
+
+/// Name of the file of a run's trajectory: variant_name(), and the seed of a planning method where it
+/// is not the default.
+std::string run_name(const MethodSpec& method, const RunSettings& settings);
 
 /// A run that took place. Without a line break at the end.
 /// @param diagnosis        of a run in which a reactive method gave up

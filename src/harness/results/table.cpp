@@ -24,7 +24,9 @@ constexpr std::string_view kLegend =
     R"(judged      collides: a link in an obstacle; drifts: tip error at a tick above the tolerance; jumps: a joint step above
             the velocity limit; breaks joint limits; incomplete: rows missing, too many or at wrong times; wrong start;
             not finite: a number that is not; undecided: not proven free between ticks with the work allowed;
-            no verdict: the two checkers of the judge disagree, a failure of the harness and not of the method
+            no verdict: the two checkers of the judge disagree, a failure of the harness and not of the method;
+            of conduct: timed out, out of memory, crashed; changes inputs: wrote into the problem; hides work: used
+            the processor beyond what its times show
 tip error   largest distance of the tip from x_d(t), from tick 1 on; between: on the straight joint motions in between
 clearance   smallest distance of a link to an obstacle, at or between ticks; negative inside; T: within 0.001 mm
 margin      The margin is asked of methods, not judged.
@@ -34,6 +36,8 @@ claimed     what the method says of its run; no claim: it does not claim that al
 (6, name)   link of Denavit-Hartenberg row 6 (planar: link 6 from the base) and the obstacle of that name;
             moved away: by the method, x 12: in 12 ticks
 )";
+
+const std::string kDefaultSeed = std::to_string(RunSettings{}.seed);
 
 bool claims_success(const TableRow& row) { return row.claim == name_of(Claim::kSuccess); }
 
@@ -154,6 +158,7 @@ std::string notes_of(const TableRow& row) {
     text += note(fmt::format("guard fired in {} of {} ticks", row.guard_fired, row.ticks), {});
   }
   if (!row.changed.empty()) text += note("with", {row.changed});
+  if (!row.seed.empty() && row.seed != kDefaultSeed) text += note("seed", {row.seed});
   if (!row.disturbance.empty()) text += note("disturbed:", {row.disturbance});
   return text;
 }
@@ -237,8 +242,13 @@ bool same_build(const TableRow& a, const TableRow& b) { return a.build == b.buil
 }  // namespace
 
 std::string verdict_of(const std::string& failure) {
-  static const std::array<std::pair<Failure, const char*>, 9> kVerdicts{{
+  static const std::array<std::pair<Failure, const char*>, 14> kVerdicts{{
       {Failure::kDisagreement, "no verdict"},
+      {Failure::kInputsChanged, "changes inputs"},
+      {Failure::kWorkHidden, "hides work"},
+      {Failure::kTimedOut, "timed out"},
+      {Failure::kOutOfMemory, "out of memory"},
+      {Failure::kCrashed, "crashed"},
       {Failure::kNotFinite, "not finite"},
       {Failure::kIncomplete, "incomplete"},
       {Failure::kWrongStart, "wrong start"},

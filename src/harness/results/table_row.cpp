@@ -86,7 +86,8 @@ void read_claim(const RecordValue& claimed, TableRow& row) {
   row.claim = claimed["status"].text();
   if (row.claim == name_of(Claim::kInfeasible)) {
     read_giving_up(claimed, row);
-  } else if (row.claim == name_of(Claim::kCrashed)) {
+  } else if (row.claim == name_of(Claim::kCrashed) || row.claim == name_of(Claim::kTimedOut) ||
+             row.claim == name_of(Claim::kOutOfMemory)) {
     const int tick = claimed["tick"].integer();
     row.failure_tick = tick;
     if (tick > 0) row.claim += fmt::format(" at tick {}", tick);
@@ -139,8 +140,9 @@ void read_judgement(const RecordValue& judged, TableRow& row) {
 
 /// Whether the claim agrees with the verdict, which the record says and has to be right about.
 bool read_claim_holds(const RecordValue& record, bool success) {
-  static constexpr std::array kClaims{Claim::kSuccess, Claim::kNothing, Claim::kInfeasible,
-                                      Claim::kUnsolved, Claim::kCrashed};
+  static constexpr std::array kClaims{Claim::kSuccess,    Claim::kNothing, Claim::kInfeasible,
+                                      Claim::kUnsolved,   Claim::kCrashed, Claim::kTimedOut,
+                                      Claim::kOutOfMemory};
   const RecordValue status = record["claimed"]["status"];
   const std::string name = status.text();
   const auto* claim = std::find_if(kClaims.begin(), kClaims.end(),
@@ -238,6 +240,9 @@ TableRow parse_run_record(std::string_view text) {
   row.ticks = record["problem"]["ticks"].integer();
   row.variant = record["method"]["variant"].text();
   row.changed = record["method"]["changed"].text();
+  if (record["method"].has("seed") && !record["method"]["seed"].is_null()) {
+    row.seed = std::to_string(record["method"]["seed"].whole());
+  }
   row.disturbance = disturbance_text(record);
   row.build = build_text(record["provenance"]);
   read_claim(record["claimed"], row);
@@ -252,10 +257,10 @@ TableRow parse_run_record(std::string_view text) {
 
 std::vector<TableRow> last_runs(const std::vector<TableRow>& rows) {
   std::vector<TableRow> shown;
-  std::map<std::tuple<std::string, std::string, std::string>, std::size_t> places;
+  std::map<std::tuple<std::string, std::string, std::string, std::string>, std::size_t> places;
   for (const TableRow& row : rows) {
     const auto [place, first] =
-        places.try_emplace({row.scenario, row.sha256, row.variant}, shown.size());
+        places.try_emplace({row.scenario, row.sha256, row.variant, row.seed}, shown.size());
     if (first) {
       shown.push_back(row);
     } else {

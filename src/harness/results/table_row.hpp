@@ -17,10 +17,11 @@ struct TableRow {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
   std::string scenario;
-  std::string sha256;       ///< of the scenario file
-  std::string problem;      ///< sizes of the problem, as text
-  std::string variant;      ///< method, with the hash of its changed parameters
-  std::string changed;      ///< those parameters
+  std::string sha256;   ///< of the scenario file
+  std::string problem;  ///< sizes of the problem, as text
+  std::string variant;  ///< method, with the hash of its changed parameters
+  std::string changed;  ///< those parameters
+  std::string seed;     ///< of a planning method; empty if it answers tick by tick, or is unknown
   std::string disturbance;  ///< what disturbed it, as text; empty if nothing did
   std::string build;        ///< program, compiler and machine, as text
   int ticks = 0;            ///< of the problem
@@ -75,7 +76,7 @@ std::string length_text(double metres);
 ///   itself about success or the claim
 TableRow parse_run_record(std::string_view record);
 
-/// The last run of each scenario file and variant, at the place of the first.
+/// The last run of each scenario file, variant and seed, at the place of the first.
 std::vector<TableRow> last_runs(const std::vector<TableRow>& rows);
 
 /// Number of different scenario files.

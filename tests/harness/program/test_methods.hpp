@@ -57,9 +57,11 @@ inline MethodSpec scripted(std::string name, Step step) {
 }
 
 inline MethodSpec planned(std::string name, PlanningMethod::Plan plan) {
-  return with_defaults(entry_of(std::move(name), [plan](const ParameterValues&) {
+  MethodEntry entry = entry_of(std::move(name), [plan](const ParameterValues&) {
     return std::make_unique<ScriptedPlanner>(plan);
-  }));
+  });
+  entry.capabilities.plans = true;
+  return with_defaults(entry);
 }
 
 /// Stays where it is and calls every tick free.

@@ -1,0 +1,324 @@
+#include "harness/isolated_run.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <system_error>
+
+#include "harness/outcome_message.hpp"
+
+namespace bqsa::harness {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+#ifdef __SANITIZE_ADDRESS__
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+
+constexpr int kLookEvery = 20;                                 ///< at the resident memory [ms]
+constexpr std::size_t kLargestAnswer = std::size_t{1} << 28U;  ///< [byte]
+constexpr std::size_t kKeptOfStandardError = 1024;             ///< [byte]
+
+[[noreturn]] void refuse(const char* what) {
+  throw std::system_error(errno, std::generic_category(), what);
+}
+
+/// A file descriptor that is closed in the end.
+class Descriptor {
+ public:
+  Descriptor() = default;
+  explicit Descriptor(int number) : number_(number) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() { close(); }
+
+  void reset(int number) {
+    close();
+    number_ = number;
+  }
+  void close() {
+    if (number_ >= 0) ::close(number_);
+    number_ = -1;
+  }
+  int number() const { return number_; }
+
+ private:
+  int number_ = -1;
+};
+
+struct Pipe {
+  Descriptor read_end;
+  Descriptor write_end;
+
+  Pipe() {
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) refuse("cannot make a pipe");
+    read_end.reset(ends[0]);
+    write_end.reset(ends[1]);
+  }
+};
+
+/// Memory that a forked process shares with this one.
+class SharedProgress {
+ public:
+  explicit SharedProgress(int ticks) : size_(RunProgress::bytes(ticks)) {
+    memory_ = mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (memory_ == MAP_FAILED) refuse("cannot share memory with a run");
+    progress_ = RunProgress::make(memory_);
+  }
+  SharedProgress(const SharedProgress&) = delete;
+  SharedProgress& operator=(const SharedProgress&) = delete;
+  ~SharedProgress() { munmap(memory_, size_); }
+
+  RunProgress& operator*() const { return *progress_; }
+
+ private:
+  std::size_t size_;
+  void* memory_;
+  RunProgress* progress_ = nullptr;
+};
+
+/// Pages of a process: 0 in its address space, 1 resident. [byte]
+std::uint64_t memory_of(pid_t process, int kind) {
+  const std::string name = "/proc/" + std::to_string(process) + "/statm";
+  std::FILE* file = std::fopen(name.c_str(), "re");
+  if (file == nullptr) return 0;
+  std::array<unsigned long, 2> pages{};
+  const int read = std::fscanf(file, "%lu %lu", pages.data(), pages.data() + 1);
+  std::fclose(file);
+  if (read != 2) return 0;
+  return std::uint64_t{pages[static_cast<std::size_t>(kind)]} *
+         static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+void limit(__rlimit_resource resource, std::uint64_t value) {
+  const rlimit both{value, value};
+  setrlimit(resource, &both);
+}
+
+void write_all(int file, const std::string& bytes) {
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t written = write(file, bytes.data() + done, bytes.size() - done);
+    if (written < 0 && errno != EINTR) return;
+    done += static_cast<std::size_t>(std::max<ssize_t>(written, 0));
+  }
+}
+
+/// What stands before every message, so that its end is known.
+using Size = std::uint64_t;
+
+/// The forked process, from its first to its last instruction.
+[[noreturn]] void run_in_child(pid_t parent, Pipe& answer, Pipe& errors, const RunLimits& limits,
+                               const auto& run) {
+  setpgid(0, 0);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(EXIT_FAILURE);  // it has died before the line above
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(number, SIG_DFL);
+  limit(RLIMIT_CORE, 0);
+  if (!kSanitized) limit(RLIMIT_AS, memory_of(getpid(), 0) + limits.memory_bytes);
+  answer.read_end.close();
+  errors.read_end.close();
+  const Descriptor nowhere(open("/dev/null", O_RDWR | O_CLOEXEC));
+  dup2(nowhere.number(), STDIN_FILENO);
+  dup2(nowhere.number(), STDOUT_FILENO);
+  dup2(errors.write_end.number(), STDERR_FILENO);
+
+  const std::string message = outcome_message(run());
+  const Size size = message.size();
+  write_all(answer.write_end.number(),
+            std::string(reinterpret_cast<const char*>(&size), sizeof size) + message);
+  _exit(EXIT_SUCCESS);  // neither buffers nor destructors of the harness are this process' business
+}
+
+/// What the parent sees of the process.
+struct Observed {
+  std::string answer;  ///< with its size before it
+  std::string errors;  ///< the end of the standard error
+  bool timed_out = false;
+  bool out_of_memory = false;
+  int status = 0;    ///< of wait4()
+  double cpu_s = 0;  ///< of all threads, by the kernel's count
+
+  bool answer_is_whole() const {
+    Size size = 0;
+    if (answer.size() < sizeof size) return false;
+    std::memcpy(&size, answer.data(), sizeof size);
+    return size == answer.size() - sizeof size;
+  }
+};
+
+/// Reads what there is, at most once. @return whether more may come
+bool read_some(int file, std::string& text) {
+  std::array<char, 1U << 16U> buffer{};
+  const ssize_t count = read(file, buffer.data(), buffer.size());
+  if (count < 0) return errno == EINTR || errno == EAGAIN;
+  text.append(buffer.data(), static_cast<std::size_t>(count));
+  return count > 0;
+}
+
+/// Reads and watches until the process has answered, ended or exceeded a limit.
+void watch(pid_t process, int answer, int errors, const RunLimits& limits, Observed& observed) {
+  const Clock::time_point deadline =
+      Clock::now() +
+      std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limits.wall_s));
+  const std::uint64_t most_resident = memory_of(getpid(), 1) + limits.memory_bytes;
+  std::array<pollfd, 2> files{pollfd{answer, POLLIN, 0}, pollfd{errors, POLLIN, 0}};
+  Clock::time_point next_look = Clock::now();
+  while (files[0].fd >= 0 && !observed.answer_is_whole() &&
+         observed.answer.size() <= kLargestAnswer) {
+    const Clock::time_point now = Clock::now();
+    if (now >= deadline) {
+      observed.timed_out = true;
+      return;
+    }
+    if (now >= next_look) {
+      next_look = now + std::chrono::milliseconds(kLookEvery);
+      if (memory_of(process, 1) > most_resident) {
+        observed.out_of_memory = true;
+        return;
+      }
+    }
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - now).count();
+    poll(files.data(), files.size(), static_cast<int>(std::min<long>(left + 1, kLookEvery)));
+    if (files[1].revents != 0) {
+      if (!read_some(files[1].fd, observed.errors)) files[1].fd = -1;
+      if (observed.errors.size() > kKeptOfStandardError) {
+        observed.errors.erase(0, observed.errors.size() - kKeptOfStandardError);
+      }
+    }
+    if (files[0].revents != 0 && !read_some(files[0].fd, observed.answer)) files[0].fd = -1;
+  }
+}
+
+/// Lets a process that has answered end by itself, for a while.
+void wait_for_end(int answer) {
+  constexpr int kLongEnough = 1000;  // [ms]
+  pollfd file{answer, 0, 0};         // tells only that nobody can write any more
+  poll(&file, 1, kLongEnough);
+}
+
+double seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+/// Ends the process, and all that it may have started, and waits for it. One that has ended already
+/// keeps the status with which it did.
+void reap(pid_t process, Observed& observed) {
+  kill(-process, SIGKILL);
+  rusage used{};
+  while (wait4(process, &observed.status, 0, &used) < 0 && errno == EINTR) {
+  }
+  observed.cpu_s = seconds(used.ru_utime) + seconds(used.ru_stime);
+}
+
+/// The last line that is not empty, of printable characters.
+std::string last_line(std::string text) {
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0) {
+    text.pop_back();
+  }
+  text.erase(0, text.find_last_of('\n') + 1);  // npos + 1 is 0
+  std::erase_if(text, [](unsigned char c) { return std::iscntrl(c) != 0; });
+  return text;
+}
+
+std::string cause_of_death(const Observed& observed) {
+  std::string cause;
+  if (WIFSIGNALED(observed.status)) {
+    const int number = WTERMSIG(observed.status);
+    cause = "killed by signal " + std::to_string(number) + " (" + strsignal(number) + ")";
+  } else if (observed.answer.size() > kLargestAnswer) {
+    cause = "answered with more than " + std::to_string(kLargestAnswer >> 20U) + " MiB";
+  } else {
+    cause = "ended its process with exit status " + std::to_string(WEXITSTATUS(observed.status));
+  }
+  const std::string said = last_line(observed.errors);
+  return said.empty() ? cause : cause + ": " + said;
+}
+
+/// What is known of a run that did not answer.
+RunOutcome unanswered(const Problem& problem, const Observed& observed, const RunProgress& progress,
+                      const RunLimits& limits) {
+  RunOutcome outcome;
+  outcome.claim = observed.timed_out       ? Claim::kTimedOut
+                  : observed.out_of_memory ? Claim::kOutOfMemory
+                                           : Claim::kCrashed;
+  outcome.message =
+      observed.timed_out ? "stopped after " + std::to_string(limits.wall_s) + " s"
+      : observed.out_of_memory
+          ? "had more than " + std::to_string(limits.memory_bytes >> 20U) + " MiB of memory"
+          : cause_of_death(observed);
+  // The process may have written nonsense there.
+  outcome.tick = std::clamp(progress.tick(), 0, problem.ticks);
+  const int rows = std::clamp(progress.rows(), 0, std::max(outcome.tick - 1, 0));
+  outcome.trajectory.t.push_back(0);
+  outcome.trajectory.q.push_back(problem.start);
+  for (int row = 0; row < rows; ++row) {
+    outcome.trajectory.t.push_back(problem.time(row + 1));
+    outcome.trajectory.q.push_back(progress.row(row, problem.chain.joints()));
+  }
+  outcome.times.cpu_s = observed.cpu_s;
+  return outcome;
+}
+
+/// Whether a process of one thread can have used so much: the time to fork and to send the answer is
+/// beyond the run.
+bool is_unexplained(double cpu_s, double run_s) {
+  constexpr double kAround = 0.1;       // [s]
+  constexpr double kAroundShare = 0.2;  // of the run
+  return cpu_s > run_s * (1 + kAroundShare) + kAround;
+}
+
+}  // namespace
+
+RunOutcome run_isolated(const Problem& problem, const MethodEntry& method,
+                        const ParameterValues& parameters, const RunSettings& settings,
+                        const RunLimits& limits) {
+  Pipe answer;
+  Pipe errors;
+  const SharedProgress progress(problem.ticks);
+  const pid_t parent = getpid();
+  const pid_t process = fork();
+  if (process < 0) refuse("cannot start a process for a run");
+  if (process == 0) {
+    run_in_child(parent, answer, errors, limits,
+                 [&] { return run_method(problem, method, parameters, settings, &*progress); });
+  }
+  setpgid(process, process);  // whoever comes first
+  answer.write_end.close();
+  errors.write_end.close();
+
+  Observed observed;
+  watch(process, answer.read_end.number(), errors.read_end.number(), limits, observed);
+  if (observed.answer_is_whole()) wait_for_end(answer.read_end.number());
+  reap(process, observed);
+
+  std::optional<RunOutcome> outcome;
+  if (observed.answer_is_whole()) {
+    outcome = read_outcome_message(std::string_view(observed.answer).substr(sizeof(Size)));
+  }
+  if (!outcome) return unanswered(problem, observed, *progress, limits);
+  if (is_unexplained(observed.cpu_s, outcome->times.run_s)) outcome->work_hidden = true;
+  return *std::move(outcome);
+}
+
+}  // namespace bqsa::harness
