@@ -131,6 +131,8 @@ TEST_P(OmplVariant, KeepsItsBudgetAndClaimsNothingWhereThePathIsBlocked) {
   EXPECT_LT(spent.count(), 3);
 }
 
+constexpr double kTightSpeed = 0.8;  // [rad/s]
+
 /// The scene of the paper with the joints just able to do what a known solution does.
 Problem with_tight_limits(Problem problem, const Trajectory& known) {
   const JointVector room = JointVector::Constant(7, 0.05);  // [rad]
@@ -140,7 +142,7 @@ Problem with_tight_limits(Problem problem, const Trajectory& known) {
     problem.limits.lower = problem.limits.lower.cwiseMin(q - room);
     problem.limits.upper = problem.limits.upper.cwiseMax(q + room);
   }
-  problem.limits.max_velocity = JointVector::Constant(7, 1.5);  // [rad/s]
+  problem.limits.max_velocity = JointVector::Constant(7, kTightSpeed);
   return problem;
 }
 
@@ -149,15 +151,22 @@ TEST(Ompl, KeepsLimitsOfAngleAndSpeedThatItMeetsWithoutThem) {
   const PlanningMethod::Plan known = plan_of(problem, {}, 3);
   ASSERT_TRUE(known.solved);
   int beyond = 0;
+  int too_fast = 0;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const Problem limited = with_tight_limits(problem, known.trajectory);
     const PlanningMethod::Plan free = plan_of(problem, {}, seed);
     const PlanningMethod::Plan plan = plan_of(limited, {}, seed);
     ASSERT_TRUE(free.solved && plan.solved);
     expect_solves(limited, plan.trajectory);
-    for (const JointVector& q : free.trajectory.q) beyond += !limited.within_limits(q);
+    for (std::size_t row = 1; row < free.trajectory.q.size(); ++row) {
+      const JointVector& q = free.trajectory.q[row];
+      const JointVector step = q - free.trajectory.q[row - 1];
+      beyond += !limited.within_limits(q);
+      too_fast += step.cwiseAbs().maxCoeff() > kTightSpeed * problem.dt;
+    }
   }
   EXPECT_GT(beyond, 0);  // else nothing would have been limited
+  EXPECT_GT(too_fast, 0);
 }
 
 TEST(Ompl, GetsOutOfTheWayOfAnObstacleThatComesLater) {
@@ -172,7 +181,7 @@ TEST(Ompl, GetsOutOfTheWayOfAnObstacleThatComesLater) {
   problem.chain.forward(before.trajectory.q[80], pose);
   const Eigen::Vector3d on_link = (pose.p_WO.col(4) + pose.p_WO.col(5)) / 2;
   Obstacle comer{"comer", Ellipsoid(on_link, {0.05, 0.03, 0.05})};
-  test_support::set_in_motion(problem, {0.001, 0.0005, 0}, Eigen::Vector3d::UnitZ(), 0.01, comer);
+  test_support::set_in_motion(problem, {0.004, 0.002, 0}, Eigen::Vector3d::UnitZ(), 0.01, comer);
   problem.obstacles.push_back(comer);
   ASSERT_FALSE(sampled_hits(problem, before.trajectory.q, 4).empty());
   ASSERT_TRUE(sampled_hits(problem, {problem.start}, 0).empty());
