@@ -131,7 +131,7 @@ TEST_P(OmplVariant, KeepsItsBudgetAndClaimsNothingWhereThePathIsBlocked) {
   EXPECT_LT(spent.count(), 3);
 }
 
-constexpr double kTightSpeed = 0.8;  // [rad/s]
+constexpr double kTightSpeed = 0.5;  // [rad/s]
 
 /// The scene of the paper with the joints just able to do what a known solution does.
 Problem with_tight_limits(Problem problem, const Trajectory& known) {
@@ -181,7 +181,7 @@ TEST(Ompl, GetsOutOfTheWayOfAnObstacleThatComesLater) {
   problem.chain.forward(before.trajectory.q[80], pose);
   const Eigen::Vector3d on_link = (pose.p_WO.col(4) + pose.p_WO.col(5)) / 2;
   Obstacle comer{"comer", Ellipsoid(on_link, {0.05, 0.03, 0.05})};
-  test_support::set_in_motion(problem, {0.004, 0.002, 0}, Eigen::Vector3d::UnitZ(), 0.01, comer);
+  test_support::set_in_motion(problem, {-0.004, -0.002, 0}, Eigen::Vector3d::UnitZ(), 0.01, comer);
   problem.obstacles.push_back(comer);
   ASSERT_FALSE(sampled_hits(problem, before.trajectory.q, 4).empty());
   ASSERT_TRUE(sampled_hits(problem, {problem.start}, 0).empty());
