@@ -206,7 +206,8 @@ MethodEntry ompl_method() {
                            .spatial = true,
                            .link_radius = true,
                            .margin = true,
-                           .moving = true},
+                           .moving = true,
+                           .plans = true},
           .parameters = parameters(),
           .make = make};
 }
@@ -215,7 +216,8 @@ MethodEntry ompl_joint_method() {
   return {.name = "ompl_joint",
           .summary = "planner: RRTConnect in joint space (OMPL); does not follow the path",
           .source = kSource,
-          .capabilities = {.planar = true, .spatial = true, .link_radius = true, .margin = true},
+          .capabilities =
+              {.planar = true, .spatial = true, .link_radius = true, .margin = true, .plans = true},
           .parameters = {{"range", "rad", 0, 0, 10, "longest motion; 0 for OMPL's own choice"}},
           .make = [](const ParameterValues& values) {
             return std::make_unique<OmplJoint>(values.number("range"));
