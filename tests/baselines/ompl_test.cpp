@@ -49,7 +49,7 @@ struct Variant {
 
 std::vector<Variant> variants() {
   return {{"kpiece", {}},
-          {"kpiece_by_delta", {{"hops", "delta"}}},
+          {"kpiece_by_tick", {{"hops", "tick"}}},
           {"kpiece_sampling_near", {{"sampling", "near"}}},
           {"kpiece_as_found", {{"simplify", "off"}}},
           {"rrt", {{"planner", "rrt"}}},
