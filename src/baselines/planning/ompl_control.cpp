@@ -75,9 +75,7 @@ class SelfMotion final : public oc::StatePropagator {
 ob::PlannerPtr planner_of(const ControlSettings& settings,
                           const oc::SpaceInformationPtr& information) {
   if (settings.planner == ControlPlanner::kEst) {
-    const auto est = std::make_shared<oc::EST>(information);
-    est->setRange(settings.range);
-    return est;
+    return std::make_shared<oc::EST>(information);
   }
   const auto rrt = std::make_shared<oc::RRT>(information);
   rrt->setIntermediateStates(true);

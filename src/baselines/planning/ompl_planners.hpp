@@ -18,8 +18,8 @@ using Stop = std::function<bool()>;
 void start_ompl(std::uint64_t seed);
 
 enum class Hops {
-  kTick,   ///< a motion is traced from tick to tick: what it passes are rows of the trajectory
   kDelta,  ///< a motion is traced in steps of `delta`, as ProjectedStateSpace does it
+  kTick,   ///< a motion is traced from tick to tick: what it passes are rows of the trajectory
 };
 
 enum class Sampling {
@@ -29,11 +29,11 @@ enum class Sampling {
 
 /// Of planning in (W s, q), s = t / duration.
 struct ConstrainedSettings {
-  Hops hops = Hops::kTick;
+  Hops hops = Hops::kDelta;
   Sampling sampling = Sampling::kForward;
-  double time_scale = 5;    ///< W: what the whole duration counts in distances [rad]
-  double range = 0.3;       ///< of one motion [rad]
-  double delta = 0.02;      ///< step on the manifold, of Hops::kDelta [rad]
+  double time_scale = 2;    ///< W: what the whole duration counts in distances [rad]
+  double range = 0.6;       ///< of one motion [rad]
+  double delta = 0.05;      ///< step on the manifold, of Hops::kDelta [rad]
   double cell_time = 0.05;  ///< size of a projection cell along the path, as a part of it [-]
   double cell_joint = 0.3;  ///< size of a projection cell in joints 1 and 2 [rad]
   bool simplify = true;
@@ -52,12 +52,11 @@ enum class ControlPlanner { kRrt, kEst };
 /// Of planning with joint velocities as controls, in (W s, q) too.
 struct ControlSettings {
   ControlPlanner planner = ControlPlanner::kRrt;
-  double time_scale = 5;    ///< W [rad]
-  double range = 0.3;       ///< of EST: distance within which states are sampled [rad]
+  double time_scale = 10;   ///< W [rad]
   double cell_time = 0.05;  ///< as above, of EST [-]
   double cell_joint = 0.3;  ///< as above, of EST [rad]
   double self_motion = 1;   ///< largest joint velocity of a control, within the limits [rad/s]
-  int hold_ticks = 10;      ///< longest time for which a control is held [ticks]
+  int hold_ticks = 30;      ///< longest time for which a control is held [ticks]
 };
 
 /// A control-based planner: controls are joint velocities, of which the part that moves the tip is
