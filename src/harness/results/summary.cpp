@@ -21,6 +21,7 @@ namespace {
 
 constexpr double kMillimetre = 1e-3;
 constexpr double kMicrosecond = 1e-6;
+constexpr double kMillisecond = 1e-3;
 constexpr double kDegree = std::numbers::pi / 180;
 
 constexpr const char* kNoPlan = "no plan";
@@ -32,7 +33,9 @@ claim       wrong: runs in which the method claims success and the judge finds a
 failures    each failed run once: by the judge's most telling verdict, or, if the method only gave up, by its reason
 why         each run that gave up once: no free posture found; a way, but too far for one tick; arm singular; free
             postures, but no way there; a way within the tick that the method missed. A diagnosis, not a verdict
-successes   the largest tip error, step and number of increments and the smallest clearance of all successes
+successes   of all successes: tip error at ticks (of each run the largest; median and largest of these), largest
+            tip error between ticks, step and number of increments, smallest clearance
+plans       wall clock of planning methods for the whole motion, over all successes
 increments  clamping increments of a tick, over all ticks of all successes in which a link was cleared
 time        wall clock of a tick, over all ticks from the second on of all successes, as if of one run; median and
             quantiles to 2.2 % (from histograms), max exact; slowest: of all runs, also those that gave up;
@@ -51,13 +54,14 @@ struct Tally {
   int gave_up = 0;
   std::map<std::string, int> gave_up_by_class;  ///< by TableRow::claim_class
 
-  double tip_error_at_ticks_m = 0;
+  std::vector<double> tip_errors_at_ticks_m;  ///< of each success
   double tip_error_between_ticks_m = 0;
   double clearance_m = std::numeric_limits<double>::infinity();
   double max_joint_step_rad = 0;
   LogHistogram increments;
   int increments_max = 0;
 
+  std::vector<double> plans_s;  ///< of each success of a planning method
   LogHistogram step_times;
   double slowest_of_successes_s = TableRow::kNone;
   double slowest_s = TableRow::kNone;  ///< of all runs
@@ -104,8 +108,9 @@ void Tally::add(const TableRow& row) {
 
 void Tally::add_success(const TableRow& row) {
   ++successes;
-  tip_error_at_ticks_m = std::max(tip_error_at_ticks_m, row.tip_error_at_ticks_m);
+  tip_errors_at_ticks_m.push_back(row.tip_error_at_ticks_m);
   tip_error_between_ticks_m = std::max(tip_error_between_ticks_m, row.tip_error_between_ticks_m);
+  if (std::isfinite(row.plan_s)) plans_s.push_back(row.plan_s);
   if (std::isfinite(row.clearance_m)) clearance_m = std::min(clearance_m, row.clearance_m);
   max_joint_step_rad = std::max(max_joint_step_rad, row.max_joint_step_rad);
   increments.add_all(row.increments);
@@ -293,7 +298,8 @@ std::string why_table(const Summary& summary) {
 
 std::string accuracy_table(const Summary& summary) {
   TextTable table({{"successes", "", true},
-                   {"tip error [mm]", "at ticks"},
+                   {"tip error [mm]", "median"},
+                   {"", "max"},
                    {"[mm]", "between"},
                    {"clearance", "[mm]"},
                    {"max step", "[deg]"},
@@ -302,8 +308,11 @@ std::string accuracy_table(const Summary& summary) {
                    {"", "p99"},
                    {"", "max"}});
   summary.fill(table, [](const Tally& tally) -> std::vector<std::string> {
-    if (tally.successes == 0) return std::vector<std::string>(8, "-");
-    return {figure(tally.tip_error_at_ticks_m / kMillimetre),
+    if (tally.successes == 0) return std::vector<std::string>(9, "-");
+    std::vector<double> errors = tally.tip_errors_at_ticks_m;
+    std::sort(errors.begin(), errors.end());
+    return {figure(median_of(errors) / kMillimetre),
+            figure(errors.back() / kMillimetre),
             figure(tally.tip_error_between_ticks_m / kMillimetre),
             figure(tally.clearance_m / kMillimetre),
             figure(tally.max_joint_step_rad / kDegree),
@@ -345,6 +354,30 @@ std::string time_table(const Summary& summary) {
             figure(tally.total_s)};
   });
   return table.text();
+}
+
+/// Of planning methods; empty if there is no plan.
+std::string plan_table(const Summary& summary) {
+  TextTable table(
+      {{"plans", "", true}, {"solved", ""}, {"[ms]", "median"}, {"", "p99"}, {"", "max"}});
+  bool any = false;
+  for (const std::string& family : summary.families.names()) {
+    table.add_heading(family);
+    for (const std::string& method : summary.methods.names()) {
+      const auto found = summary.tallies.find({family, method});
+      if (found == summary.tallies.end() || found->second.plans_s.empty()) continue;
+      const Tally& tally = found->second;
+      any = true;
+      std::vector<double> plans = tally.plans_s;
+      std::sort(plans.begin(), plans.end());
+      table.add_row({fmt::format("  {}", method), count_text(std::ssize(plans)),
+                     fmt::format("{}{}", tally.times_count ? "" : "~",
+                                 figure(median_of(plans) / kMillisecond)),
+                     figure(quantile_of(plans, 0.99) / kMillisecond),
+                     figure(plans.back() / kMillisecond)});
+    }
+  }
+  return any ? table.text() + '\n' : "";
 }
 
 /// Whether a method succeeded, by scenario file, for the runs of one family and method.
@@ -482,8 +515,8 @@ std::string render_summary(const std::vector<TableRow>& all_rows) {
                      count_scenarios(rows), summary.families.names().size()) +
          success_table(summary) + alarm + '\n' + failure_table(summary) + '\n' +
          why_table(summary) + accuracy_table(summary) + '\n' + time_table(summary) + '\n' +
-         pair_table(summary, rows) + variant_notes(rows) + std::string(success_legend()) +
-         std::string(kSummaryLegend) + origin_notes(rows);
+         plan_table(summary) + pair_table(summary, rows) + variant_notes(rows) +
+         std::string(success_legend()) + std::string(kSummaryLegend) + origin_notes(rows);
 }
 
 std::string render_failures(const std::vector<TableRow>& all_rows) {

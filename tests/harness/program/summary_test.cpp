@@ -201,9 +201,10 @@ TEST(Summary, AWrongClaimIsLoud) {
   EXPECT_THAT(render_summary({lie}), Not(HasSubstr("! "))) << "no verdict to differ from";
 }
 
-TEST(Summary, FiguresAreTheWorstOfTheSuccesses) {
+TEST(Summary, FiguresAreTheWorstOfTheSuccessesAndTheirMedianError) {
   TableRow one = success("a_1", "m");
   TableRow two = success("a_2", "m");
+  one.tip_error_at_ticks_m = 1e-4;
   two.tip_error_at_ticks_m = 3e-4;
   one.tip_error_between_ticks_m = 4e-4;
   two.clearance_m = 0.002;
@@ -216,7 +217,24 @@ TEST(Summary, FiguresAreTheWorstOfTheSuccesses) {
   worse.tip_error_at_ticks_m = worse.tip_error_between_ticks_m = worse.max_joint_step_rad = 1;
   worse.clearance_m = -1;
   EXPECT_THAT(words_of(render_summary({one, two, worse}), "m", 2),
-              ElementsAre("0.3", "0.4", "2", "5.73", "100", "4", "20", "20"));
+              ElementsAre("0.2", "0.3", "0.4", "2", "5.73", "100", "4", "20", "20"));
+}
+
+TEST(Summary, EachSeedOfAPlannerIsARunAndTimesOfPlansAreOfSuccesses) {
+  std::vector<TableRow> rows;
+  for (int seed = 1; seed <= 5; ++seed) {
+    TableRow row = success("a_1", "planner");
+    row.seed = std::to_string(seed);
+    row.plan_s = 1e-3 * seed;
+    rows.push_back(row);
+  }
+  rows.back().success = false;
+  rows.back().failures = {name_of(Failure::kDrift)};
+  rows.push_back(rows.front());  // a seed again counts once
+  const std::string text = render_summary(rows);
+  EXPECT_THAT(text, HasSubstr("5 runs on 1 scenarios"));
+  const std::string plans = text.substr(text.find("\nplans "));
+  EXPECT_THAT(words_of(plans, "planner"), ElementsAre("4", "2.5", "4", "4"));
 }
 
 TEST(Summary, QuantilesAreThoseOfAllTicksTogether) {
