@@ -22,7 +22,8 @@ echo
 # that it needs to pass the PUMA 560 scenes.
 "$program" run scenarios/*.yaml --out "$out" \
   --method none --method bqsa --method bqsa_paper --method bqsa_projection \
-  --method bqsa_lookahead --method test_point \
+  --method bqsa_lookahead --method test_point --method maciejewski_klein --method fcl_gp \
+  --method self_motion_search --method ompl --method ompl_joint \
   --method test_point:law=gradient_projection,n=50,m=2000,influence=0.08,gradient_gain=600
 
 seconds=$((SECONDS - start))

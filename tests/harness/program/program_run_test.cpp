@@ -367,6 +367,45 @@ TEST_F(ProgramRun, StepSaysWhatWasCleared) {
   EXPECT_TRUE(cleared);
 }
 
+TEST_F(ProgramRun, PlannersRunOnceWithEachSeedOthersOnce) {
+  const ProgramResult result =
+      run({kPlanar, "--method", "none", "--method", "ompl", "--seed", "7", "--seeds", "3"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const std::vector<nlohmann::json> all = records();
+  ASSERT_EQ(all.size(), 4u);
+  EXPECT_TRUE(all[0]["method"]["seed"].is_null());
+  for (std::size_t k = 1; k < all.size(); ++k) {
+    EXPECT_EQ(all[k]["method"]["seed"], 6 + k);
+    EXPECT_EQ(all[k]["judged"]["success"], true);
+  }
+  EXPECT_NE(content_of(trajectory("ompl+seed=7")), content_of(trajectory("ompl+seed=8")));
+  const ProgramResult show = run_bqsa_bench({"show", out_, "--summary"});
+  EXPECT_THAT(show.out, HasSubstr("4 runs on 1 scenarios"));
+}
+
+TEST_F(ProgramRun, InThisProcessOrInItsOwnARunIsTheSame) {
+  ASSERT_EQ(run({kPlanar, "--method", "bqsa"}).status, 0);
+  const std::string isolated = content_of(trajectory("bqsa"));
+  ASSERT_EQ(run({kPlanar, "--method", "bqsa", "--in-process"}).status, 0);
+  EXPECT_EQ(content_of(trajectory("bqsa")), isolated);
+  EXPECT_EQ(records()[0]["provenance"]["isolated"], true);
+  EXPECT_EQ(records()[1]["provenance"]["isolated"], false);
+  EXPECT_EQ(records()[0]["counters"], records()[1]["counters"]);
+}
+
+TEST_F(ProgramRun, ARunBeyondItsLimitsIsAnOutcomeAndTheOthersGoOn) {
+  const ProgramResult result = run({kPlanar, "--time-limit", "1", "--memory-limit", "256",
+                                    "--method", "test_point:n=10000,m=100000", "--method", "none"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  const std::vector<nlohmann::json> all = records();
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[0]["claimed"]["status"], "timed out");
+  EXPECT_EQ(all[0]["judged"]["failures"][0], "timed_out");
+  EXPECT_EQ(all[0]["judged"]["success"], false);
+  EXPECT_EQ(all[1]["claimed"]["status"], "nothing");
+  EXPECT_THAT(result.out, HasSubstr("timed out"));
+}
+
 TEST_F(ProgramRun, AReaderThatGoesAwayCostsNoResults) {
   // The reader is gone before the refusal of the first scenario is printed.
   const std::string command = "(sleep 0.3; " BQSA_BENCH " run " + broken_scenario() + " " +
