@@ -54,6 +54,7 @@ const BuildInfo& build_info() {
       .sanitizers = kSanitized,
       .libraries = {{"Eigen", kEigenVersion},
                     {"FCL", kFclVersion},
+                    {"OMPL", kOmplVersion},
                     {"yaml-cpp", kYamlCppVersion},
                     {"nlohmann_json", kNlohmannJsonVersion},
                     {"CLI11", kCli11Version},
