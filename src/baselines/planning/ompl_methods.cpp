@@ -199,22 +199,23 @@ std::unique_ptr<Method> make(const ParameterValues& values) {
 }  // namespace
 
 MethodEntry ompl_method() {
-  return {.name = "ompl",
-          .summary = "planner: KPIECE1 on the tip's path, or RRT and EST over self-motions (OMPL)",
-          .source = kSource,
-          .capabilities = {.planar = true,
-                           .spatial = true,
-                           .link_radius = true,
-                           .margin = true,
-                           .moving = true,
-                           .plans = true},
-          .parameters = parameters(),
-          .make = make};
+  return {
+      .name = "ompl",
+      .summary = "planner: OMPL's KPIECE1 on the tip's path, or its RRT and EST over self-motions",
+      .source = kSource,
+      .capabilities = {.planar = true,
+                       .spatial = true,
+                       .link_radius = true,
+                       .margin = true,
+                       .moving = true,
+                       .plans = true},
+      .parameters = parameters(),
+      .make = make};
 }
 
 MethodEntry ompl_joint_method() {
   return {.name = "ompl_joint",
-          .summary = "planner: RRTConnect in joint space (OMPL); does not follow the path",
+          .summary = "planner: OMPL's RRTConnect in joint space; does not follow the path",
           .source = kSource,
           .capabilities =
               {.planar = true, .spatial = true, .link_radius = true, .margin = true, .plans = true},
