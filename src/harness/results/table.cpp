@@ -265,9 +265,10 @@ std::string verdict_of(const std::string& failure) {
 }
 
 std::string_view success_legend() {
-  return R"(Success, decided from the joint trajectory alone: every row present and finite, from the given start; no link in an
+  return R"(Success, decided from the joint trajectory: every row present and finite, from the given start; no link in an
 obstacle at or between ticks; largest tip error at ticks within the tolerance; joint limits and velocity limit (default
-15 deg a tick) kept. Self-collision is not judged.
+15 deg a tick) kept; and from the conduct of the run: within time and memory, inputs untouched, no hidden work.
+Self-collision is not judged.
 )";
 }
 
