@@ -91,9 +91,9 @@ void search(benchmark::State& state, MakeSearch make, const Inputs& inputs, doub
   state.counters["queries/tick"] = static_cast<double>(counters.distance_queries) / ticks;
 }
 
-template <FclSolver kSolver, bool kBroadphase>
+template <FclSolver Solver, bool Broadphase>
 std::unique_ptr<ClosestPointSearch> fcl() {
-  return std::make_unique<FclDistanceSearch>(kSolver, kBroadphase);
+  return std::make_unique<FclDistanceSearch>(Solver, Broadphase);
 }
 
 void register_all() {
