@@ -12,6 +12,9 @@ function(bqsa_target name)
     target_compile_options(${name} PUBLIC
       $<BUILD_INTERFACE:-O1;-fsanitize=address,undefined;-fno-sanitize-recover=all>)
     target_link_options(${name} PUBLIC $<BUILD_INTERFACE:-fsanitize=address,undefined>)
+    # Under this sanitizer Eigen would align memory by itself, which the packaged FCL and OMPL, who free
+    # it, do not know of.
+    target_compile_definitions(${name} PUBLIC EIGEN_MALLOC_ALREADY_ALIGNED=1)
   endif()
 endfunction()
 
