@@ -10,7 +10,7 @@ function(bqsa_target name)
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   if(BQSA_SANITIZE)
     target_compile_options(${name} PUBLIC
-      $<BUILD_INTERFACE:-O1;-fsanitize=address,undefined;-fno-sanitize-recover=all>)
+      $<BUILD_INTERFACE:-O1;-g1;-fsanitize=address,undefined;-fno-sanitize-recover=all>)
     target_link_options(${name} PUBLIC $<BUILD_INTERFACE:-fsanitize=address,undefined>)
     # Under this sanitizer Eigen would align memory by itself, which the packaged FCL and OMPL, who free
     # it, do not know of.
