@@ -9,19 +9,14 @@
 #include <utility>
 #include <vector>
 
-#include "baselines/closest/closest_point_search.hpp"
+#include "baselines/closest/arm_surroundings.hpp"
+#include "baselines/limited_step.hpp"
 #include "bqsa/hybrid_ik.hpp"
 #include "bqsa/method.hpp"
 
 namespace bqsa::baselines {
 
 enum class AvoidanceLaw { kMaciejewskiKlein, kGradientProjection };
-
-/// What is done if a joint's step of one tick would exceed its limit or leave its range.
-enum class StepLimit {
-  kHold,   ///< the method gives up
-  kScale,  ///< only as much of the avoidance is made as fits: the tip stays on its path
-};
 
 struct AvoidanceSettings {
   AvoidanceLaw law = AvoidanceLaw::kMaciejewskiKlein;
@@ -65,40 +60,23 @@ JointVector self_motion_away(double clearance, double speed, const JointVector& 
                              const JointVector& projected, const JointVector& tracking,
                              const AvoidanceSettings& settings);
 
-/// Velocity of the obstacle's material point that is at p [m] at tick - 1, over the tick [m/s].
-Eigen::Vector3d velocity_at(const Obstacle& obstacle, int tick, double dt,
-                            const Eigen::Vector3d& p);
-
-/// Largest k in [0, 1] for which the step tracking + k avoidance [rad] from q keeps the joint limits
-/// and the largest steps; negative if none does.
-double fitting_part(const Problem& problem, const JointVector& q, const JointVector& tracking,
-                    const JointVector& avoidance);
-
 /// The method: tracking closed over the tip error, plus the self-motions away from the closest
 /// points that a search finds where arm and obstacles are at the start of the step. Claims nothing:
 /// finitely many gradients, before the motion, prove nothing.
 class NullSpaceAvoidance final : public ReactiveMethod {
  public:
   NullSpaceAvoidance(const AvoidanceSettings& settings, std::unique_ptr<ClosestPointSearch> search)
-      : settings_(settings), search_(std::move(search)) {}
+      : settings_(settings), surroundings_(std::move(search)) {}
 
   void prepare(const Problem& problem) override;
   void step(const StepInput& input, StepOutput& output) override;
 
  private:
-  void keep_closest_of_each_obstacle();
-  JointVector away(const ClosestPoint& point, const JointVector& tracking, int tick);
-  const TaskJacobian& jacobian(int point);
-
   AvoidanceSettings settings_;
-  std::unique_ptr<ClosestPointSearch> search_;
+  ArmSurroundings surroundings_;
   const Problem* problem_ = nullptr;
   JointVector no_weights_;
   JointVector no_clamping_;
-  std::vector<ClosestPoint> points_;
-  ChainPose pose_;
-  std::array<TaskJacobian, kMaxPoints> J_points_;  // valid where J_known_, since the tick began
-  std::array<bool, kMaxPoints> J_known_{};
   SelfMotions self_motions_;
   HybridIkResult ik_;
 };
