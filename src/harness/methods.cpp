@@ -4,6 +4,7 @@
 #include "baselines/plain_tracking.hpp"
 #include "baselines/planning/ompl_methods.hpp"
 #include "baselines/planning/self_motion_search.hpp"
+#include "baselines/qp/qp_methods.hpp"
 #include "baselines/test_point.hpp"
 #include "bqsa/bqsa_methods.hpp"
 
@@ -20,6 +21,8 @@ const std::vector<MethodEntry>& methods() {
       baselines::test_point_method(),
       baselines::maciejewski_klein_method(),
       baselines::fcl_gp_method(),
+      baselines::qp_method(),
+      baselines::compact_qp_method(),
       baselines::self_motion_search_method(),
       baselines::ompl_method(),
       baselines::ompl_joint_method(),

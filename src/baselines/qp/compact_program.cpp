@@ -1,0 +1,62 @@
+#include "baselines/qp/compact_program.hpp"
+
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace bqsa::baselines {
+
+void KernelBasis::assign(const TaskJacobian& J) {
+  constexpr double kZero = 1e-9;
+  const auto joints = static_cast<int>(J.cols());
+  rest_ = J;
+  std::iota(order_.begin(), order_.end(), 0);
+  const double smallest = J.size() > 0 ? kZero * J.cwiseAbs().maxCoeff() : 0;
+  int rank = 0;
+  while (rank < std::min<int>(static_cast<int>(J.rows()), joints)) {
+    Eigen::Index row, column;
+    const double pivot =
+        rest_.bottomRightCorner(J.rows() - rank, joints - rank).cwiseAbs().maxCoeff(&row, &column);
+    if (pivot <= smallest) break;
+    rest_.row(rank).swap(rest_.row(rank + row));
+    rest_.col(rank).swap(rest_.col(rank + column));
+    std::swap(order_[static_cast<std::size_t>(rank)],
+              order_[static_cast<std::size_t>(rank + column)]);
+    rest_.row(rank) /= double{rest_(rank, rank)};
+    for (int other = 0; other < J.rows(); ++other) {
+      if (other != rank) rest_.row(other) -= double{rest_(other, rank)} * rest_.row(rank);
+    }
+    ++rank;
+  }
+  Z_.setZero(joints, joints - rank);
+  for (int k = 0; k < joints; ++k) {
+    const int joint = order_[static_cast<std::size_t>(k)];
+    if (k < rank) {
+      Z_.row(joint) = -rest_.row(k).tail(joints - rank);
+    } else {
+      Z_(joint, k - rank) = 1;
+    }
+  }
+}
+
+void CompactProgram::assign(const QuadraticProgram& program, int equalities, const QpVector& x0) {
+  J_ = program.E.topRows(equalities);
+  basis_.assign(J_);
+  x0_ = x0;
+  const QpMatrix& Z = basis_.Z();
+  GZ_.noalias() = program.G * Z;
+  reduced_.G.noalias() = Z.transpose() * GZ_;
+  reduced_.c.noalias() = GZ_.transpose() * x0;
+  reduced_.c.noalias() += Z.transpose() * program.c;
+  const int rows = program.rows() - equalities;
+  reduced_.E.noalias() = program.E.bottomRows(rows) * Z;
+  reduced_.lower = program.lower.tail(rows);
+  reduced_.upper = program.upper.tail(rows);
+  for (int row = 0; row < rows; ++row) {
+    const double at_x0 = program.E.row(equalities + row).dot(x0);
+    reduced_.lower(row) -= at_x0;
+    reduced_.upper(row) -= at_x0;
+  }
+}
+
+}  // namespace bqsa::baselines
