@@ -1,19 +1,19 @@
 #!/usr/bin/env python3
-"""Tunes the gains of maciejewski_klein and fcl_gp on generated problems that nothing else uses.
+"""Tunes the gains of the reactive rivals on generated problems that nothing else uses.
 
-  tools/sweep_gains.py DIR [results/gain_sweep/summary.txt]
+  tools/sweep_gains.py [--methods NAME,NAME] DIR [results/gain_sweep/summary.txt]
 
-A fixed budget for either method: 60 random settings, then 20 around the best of them. The best has the
+A fixed budget for each method: 60 random settings, then 20 around the best of them. The best has the
 highest share of problems solved, then the lowest median tip error of those it solved. DIR takes the
 problems and all results; the summary lists every setting. Needs the release build.
 """
+import argparse
 import json
 import math
 import pathlib
 import random
 import statistics
 import subprocess
-import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRAM = ROOT / "build/release/src/harness/program/bqsa-bench"
@@ -22,36 +22,50 @@ FAMILIES = {"planar": 60, "spatial": 30, "moving": 20}
 SETTINGS_SEED = 1
 RANDOM_SETTINGS, NEAR_SETTINGS = 60, 20
 
-# name: (lowest, highest), drawn with a uniform logarithm; full_distance is a part of influence.
+# name: (lowest, highest), drawn with a uniform logarithm.
 GAINS = {
     "maciejewski_klein": {"influence": (0.02, 0.3), "full_distance": (0.1, 0.9),
                           "escape_velocity": (0.01, 1), "regularization": (1e-7, 1e-2),
                           "exempt_length": (0.02, 0.2)},
     "fcl_gp": {"influence": (0.02, 0.3), "gradient_gain": (10, 3000), "exempt_length": (0.02, 0.2)},
+    "qp": {"influence": (0.02, 0.3), "safe_distance": (0.01, 0.9), "gain": (1, 40),
+           "max_velocity": (0.3, 10), "exempt_length": (0.02, 0.2)},
+    "compact_qp": {"influence": (0.02, 0.3), "safe_distance": (0.01, 0.9), "gain": (1, 40),
+                   "max_velocity": (0.3, 10), "exempt_length": (0.02, 0.2),
+                   "drift_gain": (1e-3, 3)},
 }
-FIXED = {"maciejewski_klein": "", "fcl_gp": ",broadphase=on"}  # faster, with the same answers
+PARTS_OF_INFLUENCE = ("full_distance", "safe_distance")
+CHOICES = {
+    "maciejewski_klein": {"points": ["closest", "all"]},
+    "fcl_gp": {"points": ["closest", "all"]},
+    "qp": {"points": ["closest", "all"], "approach": ["damped", "none"]},
+    "compact_qp": {"points": ["closest", "all"], "constraints": ["inequality", "equality"]},
+}
+FIXED = {"fcl_gp": ",broadphase=on"}  # faster, with the same answers
 
 
-def draw(ranges, stream, near=None):
+def draw(method, stream, near=None):
     """A random setting, or one within a factor of about 1.5 of another."""
     setting = {}
-    for name, (low, high) in ranges.items():
+    for name, (low, high) in GAINS[method].items():
         if near:
             value = min(max(near[name] * math.exp(stream.uniform(-0.4, 0.4)), low), high)
         else:
             value = math.exp(stream.uniform(math.log(low), math.log(high)))
         setting[name] = float(f"{value:.2g}")
-    setting["points"] = stream.choice(["closest", "all"])
+    for name, choices in CHOICES[method].items():
+        setting[name] = stream.choice(choices)
     return setting
 
 
 def specification(method, setting):
     values = dict(setting)
-    if "full_distance" in values:
-        values["full_distance"] = float(f"{values['full_distance'] * values['influence']:.2g}")
+    for name in PARTS_OF_INFLUENCE:
+        if name in values:
+            values[name] = float(f"{values[name] * values['influence']:.2g}")
     text = ",".join(f"{name}={value if isinstance(value, str) else format(value, '.2g')}"
                     for name, value in values.items())
-    return f"{method}:{text}{FIXED[method]}"
+    return f"{method}:{text}{FIXED.get(method, '')}"
 
 
 def run(method, settings, out):
@@ -86,9 +100,16 @@ def quality(answer):
 
 
 def main():
-    if len(sys.argv) not in (2, 3):
-        sys.exit(__doc__)
-    out = pathlib.Path(sys.argv[1])
+    parser = argparse.ArgumentParser(usage=__doc__)
+    parser.add_argument("--methods", default=",".join(GAINS))
+    parser.add_argument("directory", type=pathlib.Path)
+    parser.add_argument("summary", type=pathlib.Path, nargs="?")
+    arguments = parser.parse_args()
+    methods = arguments.methods.split(",")
+    unknown = [method for method in methods if method not in GAINS]
+    if unknown:
+        parser.error(f"no such method: {unknown[0]} (known: {', '.join(GAINS)})")
+    out = arguments.directory
     for family, count in FAMILIES.items():
         subprocess.run([PROGRAM, "generate", "--family", family, "--count", str(count), "--seed",
                         str(PROBLEM_SEED), "--robots", ROOT / "robots",
@@ -99,12 +120,12 @@ def main():
               "of them for each method.",
               "Solved of all problems, median over the solved of the largest tip error [mm], solved by "
               "family, setting; best first.", ""]
-    for method, ranges in GAINS.items():
+    for method in methods:
         stream = random.Random(SETTINGS_SEED)
-        settings = [draw(ranges, stream) for _ in range(RANDOM_SETTINGS)]
+        settings = [draw(method, stream) for _ in range(RANDOM_SETTINGS)]
         specs, answers = run(method, settings, out)
         best = min(range(len(settings)), key=lambda k: quality(answers[k]))
-        near = [draw(ranges, stream, settings[best]) for _ in range(NEAR_SETTINGS)]
+        near = [draw(method, stream, settings[best]) for _ in range(NEAR_SETTINGS)]
         more_specs, more_answers = run(method, near, out)
         rows = sorted(zip(specs + more_specs, answers + more_answers), key=lambda r: quality(r[1]))
         report.append(method)
@@ -114,10 +135,9 @@ def main():
         report.append("")
     text = "\n".join(report)
     print(text)
-    if len(sys.argv) == 3:
-        path = pathlib.Path(sys.argv[2])
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8")
+    if arguments.summary:
+        arguments.summary.parent.mkdir(parents=True, exist_ok=True)
+        arguments.summary.write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -133,7 +133,7 @@ QpStatus ActiveSet::add_inequality(Active constraint) {
     return QpStatus::kSolved;
   }
   for (;; step_towards(constraint)) {
-    if (++iterations_ > most_iterations) return QpStatus::kIterationLimit;
+    if (iterations_ > most_iterations) return QpStatus::kIterationLimit;
     double dual_step = kInfinity;
     const int blocked_by = blocking(dual_step);
     const double full_step = independent_ ? -surplus(constraint) / curvature_ : kInfinity;
@@ -201,6 +201,7 @@ void ActiveSet::append(const Active& constraint) {
   passed_over_[static_cast<std::size_t>(constraint.row)] = true;
   as_good_as_kept_.fill(false);
   active_[static_cast<std::size_t>(count_++)] = constraint;
+  ++iterations_;
 }
 
 void ActiveSet::drop(int position) {
@@ -210,6 +211,7 @@ void ActiveSet::drop(int position) {
     R_.col(k).head(k + 2) = R_.col(k + 1).head(k + 2);
   }
   --count_;
+  ++iterations_;
   for (int k = position; k < count_; ++k) {
     Eigen::JacobiRotation<double> rotation;
     rotation.makeGivens(R_(k, k), R_(k + 1, k));

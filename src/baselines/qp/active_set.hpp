@@ -30,7 +30,7 @@ namespace bqsa::baselines {
 /// Programs. Mathematical Programming 27, 1983.
 class ActiveSet {
  public:
-  /// Does not allocate. `iterations` counts the steps of inequalities, each a row added or dropped.
+  /// Does not allocate. `iterations` counts rows added and dropped.
   void solve(const QuadraticProgram& program, QpSolution& solution);
 
  private:

@@ -1,6 +1,7 @@
 #include "baselines/qp/compact_program.hpp"
 
-#include <cmath>
+#include <algorithm>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -8,16 +9,17 @@ namespace bqsa::baselines {
 
 void KernelBasis::assign(const TaskJacobian& J) {
   constexpr double kZero = 1e-9;
+  constexpr double kSmallest = std::numeric_limits<double>::min();
   const auto joints = static_cast<int>(J.cols());
   rest_ = J;
+  for (int row = 0; row < J.rows(); ++row) rest_.row(row) /= std::max(kSmallest, J.row(row).norm());
   std::iota(order_.begin(), order_.end(), 0);
-  const double smallest = J.size() > 0 ? kZero * J.cwiseAbs().maxCoeff() : 0;
   int rank = 0;
   while (rank < std::min<int>(static_cast<int>(J.rows()), joints)) {
     Eigen::Index row, column;
     const double pivot =
         rest_.bottomRightCorner(J.rows() - rank, joints - rank).cwiseAbs().maxCoeff(&row, &column);
-    if (pivot <= smallest) break;
+    if (pivot <= kZero) break;
     rest_.row(rank).swap(rest_.row(rank + row));
     rest_.col(rank).swap(rest_.col(rank + column));
     std::swap(order_[static_cast<std::size_t>(rank)],
@@ -39,7 +41,9 @@ void KernelBasis::assign(const TaskJacobian& J) {
   }
 }
 
+/// A row that depends on the equalities is left with nothing but roundings, which are removed.
 void CompactProgram::assign(const QuadraticProgram& program, int equalities, const QpVector& x0) {
+  constexpr double kNothing = 1e-10;
   J_ = program.E.topRows(equalities);
   basis_.assign(J_);
   x0_ = x0;
@@ -52,7 +56,10 @@ void CompactProgram::assign(const QuadraticProgram& program, int equalities, con
   reduced_.E.noalias() = program.E.bottomRows(rows) * Z;
   reduced_.lower = program.lower.tail(rows);
   reduced_.upper = program.upper.tail(rows);
+  const double rounding = kNothing * Z.norm();
   for (int row = 0; row < rows; ++row) {
+    const double left = reduced_.E.row(row).norm();
+    if (left <= rounding * program.E.row(equalities + row).norm()) reduced_.E.row(row).setZero();
     const double at_x0 = program.E.row(equalities + row).dot(x0);
     reduced_.lower(row) -= at_x0;
     reduced_.upper(row) -= at_x0;

@@ -9,8 +9,8 @@
 namespace bqsa::baselines {
 
 /// Basis of the kernel of J by Gaussian elimination with complete pivoting: J = [J1 J2] up to the order
-/// of its columns, J1 regular, and Z = [-J1^-1 J2; I]. Pivots below 1e-9 of the largest entry of J
-/// count as zero. Does not allocate.
+/// of its columns, J1 regular, and Z = [-J1^-1 J2; I]. With rows of unit length, pivots
+/// below 1e-9 count as zero. Does not allocate.
 class KernelBasis {
  public:
   void assign(const TaskJacobian& J);
