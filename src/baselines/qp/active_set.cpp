@@ -13,7 +13,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kViolated = 1e-10;
 constexpr double kDependent = 1e-9;
-constexpr double kLargest = 1e3;
+constexpr double kLargest = 1e4;
 constexpr double kRounding = 1e-13;
 
 }  // namespace

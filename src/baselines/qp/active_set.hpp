@@ -21,7 +21,7 @@ namespace bqsa::baselines {
 ///   as good as kept: dependent, and violated by no more than those roundings account for. Such a row is
 ///     left as it is, so that consistent rows are not called infeasible;
 ///   infeasible: a dependent row is violated by more and no active row can make place, or |y| exceeds
-///     1e3 times the largest of |bounds| and |y| at the start: rows that meet, if at all, far beyond
+///     1e4 times the largest of |bounds| and |y| at the start: rows that meet, if at all, far beyond
 ///     everything that the program speaks of.
 ///
 /// In the end y and u are corrected for what rounding the steps left over.

@@ -10,7 +10,15 @@ constexpr Capabilities kEverything{
     .planar = true, .spatial = true, .link_radius = true, .margin = true, .moving = true};
 
 // The gains are the best of results/gain_sweep (tools/sweep_gains.py).
-const QpAvoidanceSettings kQp{.solver = QpSolver::kActiveSet};
+const QpAvoidanceSettings kQp{
+    .solver = QpSolver::kActiveSet,
+    .rows = {.approach = ApproachLimit::kDamped,
+             .safe_distance = 0.018,
+             .gain = 2.8,
+             .max_velocity = 1.5},
+    .influence = 0.072,
+    .exempt_length = 0.063,
+    .all_pairs = true};
 const QpAvoidanceSettings kCompactQp{.solver = QpSolver::kCompact, .rows = {.drift_gain = 0.01}};
 
 /// What both have.
@@ -25,7 +33,7 @@ std::vector<ParameterDeclaration> common_parameters(const QpAvoidanceSettings& d
            "of every joint, beside the problem's limits; the tip's task goes first"},
           {"exempt_length", "m", defaults.exempt_length, 0, 10,
            "part of the last link, from the tip, that may be near obstacles"},
-          {"slack_weight", "rad^2/m^2", defaults.rows.slack_weight, 1e-3, 1e12,
+          {"slack_weight", "rad^2/m^2", defaults.rows.slack_weight, 1, 1e6,
            "of squared violations where the obstacles' constraints cannot be kept"},
           choice_parameter("points",
                            defaults.all_pairs ? std::vector<std::string>{"all", "closest"}
