@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kViolated = 1e-10;
-constexpr double kDependent = 1e-9;
 constexpr double kLargest = 1e4;
 constexpr double kRounding = 1e-13;
 
@@ -158,7 +157,7 @@ void ActiveSet::step_towards(const Active& constraint) {
   curvature_ = d_.tail(rest).squaredNorm();
   r_ = d_.head(count_);
   R_.topLeftCorner(count_, count_).triangularView<Eigen::Upper>().solveInPlace(r_);
-  independent_ = std::sqrt(curvature_) > kDependent + kRounding * r_.lpNorm<1>();
+  independent_ = std::sqrt(curvature_) > kRounding * (1 + r_.lpNorm<1>());
   if (independent_) z_.noalias() = Q_.rightCols(rest) * d_.tail(rest);
 }
 

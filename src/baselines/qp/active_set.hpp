@@ -17,7 +17,8 @@ namespace bqsa::baselines {
 /// L^-T Q), updated by rotations. What counts as what, relative to |bound| + the largest |y| so far:
 ///
 ///   violated beyond 1e-10;
-///   dependent on the active rows: of its length less is new than 1e-9 and 1e-13 of their coefficients;
+///   dependent on the active rows, of which it is a combination: of its length less is new than 1e-13 of
+///     the coefficients, which is rounding;
 ///   as good as kept: dependent, and violated by no more than those roundings account for. Such a row is
 ///     left as it is, so that consistent rows are not called infeasible;
 ///   infeasible: a dependent row is violated by more and no active row can make place, or |y| exceeds

@@ -10,16 +10,20 @@ constexpr Capabilities kEverything{
     .planar = true, .spatial = true, .link_radius = true, .margin = true, .moving = true};
 
 // The gains are the best of results/gain_sweep (tools/sweep_gains.py).
-const QpAvoidanceSettings kQp{
-    .solver = QpSolver::kActiveSet,
-    .rows = {.approach = ApproachLimit::kDamped,
-             .safe_distance = 0.018,
-             .gain = 2.8,
-             .max_velocity = 1.5},
-    .influence = 0.072,
-    .exempt_length = 0.063,
-    .all_pairs = true};
-const QpAvoidanceSettings kCompactQp{.solver = QpSolver::kCompact, .rows = {.drift_gain = 0.01}};
+const QpAvoidanceSettings kQp{.solver = QpSolver::kActiveSet,
+                              .rows = {.approach = ApproachLimit::kDamped,
+                                       .safe_distance = 0.018,
+                                       .gain = 2.8,
+                                       .max_velocity = 1.5},
+                              .influence = 0.072,
+                              .exempt_length = 0.063,
+                              .all_pairs = true};
+const QpAvoidanceSettings kCompactQp{
+    .solver = QpSolver::kCompact,
+    .rows = {.safe_distance = 0.019, .gain = 4.2, .max_velocity = 1.3, .drift_gain = 0.3},
+    .influence = 0.096,
+    .exempt_length = 0.023,
+    .all_pairs = false};
 
 /// What both have.
 std::vector<ParameterDeclaration> common_parameters(const QpAvoidanceSettings& defaults) {
