@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "baselines/qp/triangular.hpp"
+
 namespace bqsa::baselines {
 namespace {
 
@@ -26,7 +28,7 @@ void ActiveSet::solve(const QuadraticProgram& program, QpSolution& solution) {
     if (solution.status == QpStatus::kSolved) correct();
   }
   solution.x = y_;
-  factor_.triangularView<Eigen::Upper>().solveInPlace(solution.x);
+  solve_upper(factor_, n_, solution.x);
   solution.u.setZero(m_);
   for (int k = 0; k < count_; ++k) {
     const Active& active = active_[static_cast<std::size_t>(k)];
@@ -48,21 +50,21 @@ void ActiveSet::start(const QuadraticProgram& program) {
   assert(llt.info() == Eigen::Success);
   factor_ = llt.matrixU();
   y_ = -program.c;
-  llt.matrixL().solveInPlace(y_);
+  solve_upper_transposed(factor_, n_, y_);
   y_start_ = y_;
   size_ = y_.norm();
-  Q_.setIdentity(n_, n_);
-  R_.setZero(n_, n_);
+  basis_.setIdentity(n_, n_);
+  triangle_.setZero(n_, n_);
 
-  N_.resize(m_, n_);
+  rows_.resize(m_, n_);
   scale_.resize(m_);
   double largest = size_;
   for (int row = 0; row < m_; ++row) {
     z_ = program.E.row(row).transpose();
-    llt.matrixL().solveInPlace(z_);
+    solve_upper_transposed(factor_, n_, z_);
     const double length = z_.norm();
     scale_(row) = length > 0 ? 1 / length : 1;
-    N_.row(row) = scale_(row) * z_.transpose();
+    rows_.row(row) = scale_(row) * z_.transpose();
     for (const double bound : {program.lower(row), program.upper(row)}) {
       if (std::isfinite(bound)) largest = std::max(largest, std::abs(scale_(row) * bound));
     }
@@ -109,7 +111,7 @@ ActiveSet::Active ActiveSet::most_violated() const {
   for (int row = 0; row < m_; ++row) {
     const auto k = static_cast<std::size_t>(row);
     if (passed_over_[k] || as_good_as_kept_[k]) continue;
-    const double value = N_.row(row).dot(y_);
+    const double value = rows_.row(row).dot(y_);
     const double below = lower_(row) - value, above = value - upper_(row);
     if (below > most && below > kViolated * reach(lower_(row))) {
       most = below;
@@ -151,14 +153,14 @@ QpStatus ActiveSet::add_inequality(Active constraint) {
 
 /// d = Qᵀn, z = Q2 d2, r = R^-1 d1.
 void ActiveSet::step_towards(const Active& constraint) {
-  z_ = constraint.side * N_.row(constraint.row).transpose();
-  d_.noalias() = Q_.transpose() * z_;
+  z_ = constraint.side * rows_.row(constraint.row).transpose();
+  d_.noalias() = basis_.transpose() * z_;
   const int rest = n_ - count_;
   curvature_ = d_.tail(rest).squaredNorm();
   r_ = d_.head(count_);
-  R_.topLeftCorner(count_, count_).triangularView<Eigen::Upper>().solveInPlace(r_);
+  solve_upper(triangle_, count_, r_);
   independent_ = std::sqrt(curvature_) > kRounding * (1 + r_.lpNorm<1>());
-  if (independent_) z_.noalias() = Q_.rightCols(rest) * d_.tail(rest);
+  if (independent_) z_.noalias() = basis_.rightCols(rest) * d_.tail(rest);
 }
 
 /// Position of the active row whose multiplier is the first to vanish, after this step.
@@ -194,9 +196,9 @@ void ActiveSet::append(const Active& constraint) {
     double length;
     rotation.makeGivens(d_(k - 1), d_(k), &length);
     d_(k - 1) = length;
-    Q_.applyOnTheRight(k - 1, k, rotation);
+    basis_.applyOnTheRight(k - 1, k, rotation);
   }
-  R_.col(count_).head(count_ + 1) = d_.head(count_ + 1);
+  triangle_.col(count_).head(count_ + 1) = d_.head(count_ + 1);
   passed_over_[static_cast<std::size_t>(constraint.row)] = true;
   as_good_as_kept_.fill(false);
   active_[static_cast<std::size_t>(count_++)] = constraint;
@@ -206,29 +208,28 @@ void ActiveSet::append(const Active& constraint) {
 void ActiveSet::drop(int position) {
   passed_over_[static_cast<std::size_t>(active_[static_cast<std::size_t>(position)].row)] = false;
   for (int k = position; k + 1 < count_; ++k) {
-    active_[static_cast<std::size_t>(k)] = active_[static_cast<std::size_t>(k + 1)];
-    R_.col(k).head(k + 2) = R_.col(k + 1).head(k + 2);
+    active_[static_cast<std::size_t>(k)] = active_[static_cast<std::size_t>(k) + 1];
+    triangle_.col(k).head(k + 2) = triangle_.col(k + 1).head(k + 2);
   }
   --count_;
   ++iterations_;
   for (int k = position; k < count_; ++k) {
     Eigen::JacobiRotation<double> rotation;
-    rotation.makeGivens(R_(k, k), R_(k + 1, k));
-    R_.block(0, k, k + 2, count_ - k).applyOnTheLeft(k, k + 1, rotation.adjoint());
-    Q_.applyOnTheRight(k, k + 1, rotation);
+    rotation.makeGivens(triangle_(k, k), triangle_(k + 1, k));
+    triangle_.block(0, k, k + 2, count_ - k).applyOnTheLeft(k, k + 1, rotation.adjoint());
+    basis_.applyOnTheRight(k, k + 1, rotation);
   }
 }
 
 /// y onto the active rows by the shortest way, and the multipliers from the gradient there.
 void ActiveSet::correct() {
-  const Eigen::Ref<const QpMatrix> R = R_.topLeftCorner(count_, count_);
   r_.resize(count_);
   for (int k = 0; k < count_; ++k) r_(k) = -surplus(active_[static_cast<std::size_t>(k)]);
-  R.transpose().triangularView<Eigen::Lower>().solveInPlace(r_);
-  y_.noalias() += Q_.leftCols(count_) * r_;
+  solve_upper_transposed(triangle_, count_, r_);
+  y_.noalias() += basis_.leftCols(count_) * r_;
   z_ = y_ - y_start_;
-  r_.noalias() = Q_.leftCols(count_).transpose() * z_;
-  R.triangularView<Eigen::Upper>().solveInPlace(r_);
+  r_.noalias() = basis_.leftCols(count_).transpose() * z_;
+  solve_upper(triangle_, count_, r_);
   for (int k = 0; k < count_; ++k) {
     Active& active = active_[static_cast<std::size_t>(k)];
     active.multiplier = active.equality ? r_(k) : std::max(0.0, r_(k));
@@ -241,7 +242,7 @@ double ActiveSet::bound(const Active& constraint) const {
 
 /// Negative by as much as the constraint is violated.
 double ActiveSet::surplus(const Active& constraint) const {
-  return constraint.side * (N_.row(constraint.row).dot(y_) - bound(constraint));
+  return constraint.side * (rows_.row(constraint.row).dot(y_) - bound(constraint));
 }
 
 /// How much a row that depends on the active ones may be violated, and still be kept by some y: a

@@ -58,29 +58,32 @@ class ActiveSet {
   double doubtful(const Active& constraint) const;
   double reach(double bound) const;
 
-  int n_ = 0;
-  int m_ = 0;
+  // The program where G is the identity:
   QpMatrix factor_;            // Lᵀ
   QpVector y_start_;           // the minimum without constraints
-  QpRows N_;                   // unit rows
-  QpRowVector lower_, upper_;  // of the unit rows
-  QpRowVector scale_;          // from E to the unit rows; 1 for empty ones
-  double largest_ = 0;         // |y| beyond which there is no solution
+  QpRows rows_;                // of unit length
+  QpRowVector lower_, upper_;  // of those
+  QpRowVector scale_;          // from E to those; 1 for empty rows
 
+  // Where the search is:
   QpVector y_;
-  double size_ = 0;  // largest |y| so far
-  QpMatrix Q_, R_;
-  int count_ = 0;
-  std::array<Active, kMaxQpVariables> active_;      // the first `count_`
-  std::array<bool, kMaxQpRows> passed_over_{};      // active, or equalities that depend on those
-  std::array<bool, kMaxQpRows> as_good_as_kept_{};  // by the active rows as they are
-  int iterations_ = 0;
+  QpMatrix basis_, triangle_;                   // Q, R
+  std::array<Active, kMaxQpVariables> active_;  // the first `count_`
 
   // Of the row that is being added:
   QpVector d_;            // Qᵀn
   QpVector z_, r_;        // primal and dual step
   double curvature_ = 0;  // zᵀn
-  bool independent_ = false;
+
+  double size_ = 0;     // largest |y| so far
+  double largest_ = 0;  // |y| beyond which there is no solution
+  int n_ = 0;
+  int m_ = 0;
+  int count_ = 0;
+  int iterations_ = 0;
+  bool independent_ = false;                    // the row that is being added, of the active ones
+  std::array<bool, kMaxQpRows> passed_over_{};  // active, or equalities that depend on those
+  std::array<bool, kMaxQpRows> as_good_as_kept_{};  // by the active rows as they are
 };
 
 }  // namespace bqsa::baselines

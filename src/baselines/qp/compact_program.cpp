@@ -30,13 +30,13 @@ void KernelBasis::assign(const TaskJacobian& J) {
     }
     ++rank;
   }
-  Z_.setZero(joints, joints - rank);
+  kernel_.setZero(joints, joints - rank);
   for (int k = 0; k < joints; ++k) {
     const int joint = order_[static_cast<std::size_t>(k)];
     if (k < rank) {
-      Z_.row(joint) = -rest_.row(k).tail(joints - rank);
+      kernel_.row(joint) = -rest_.row(k).tail(joints - rank);
     } else {
-      Z_(joint, k - rank) = 1;
+      kernel_(joint, k - rank) = 1;
     }
   }
 }
@@ -47,11 +47,11 @@ void CompactProgram::assign(const QuadraticProgram& program, int equalities, con
   J_ = program.E.topRows(equalities);
   basis_.assign(J_);
   x0_ = x0;
-  const QpMatrix& Z = basis_.Z();
-  GZ_.noalias() = program.G * Z;
-  reduced_.G.noalias() = Z.transpose() * GZ_;
-  reduced_.c.noalias() = GZ_.transpose() * x0;
-  reduced_.c.noalias() += Z.transpose() * program.c;
+  const QpMatrix& Z = basis_.matrix();
+  weighted_.noalias() = program.G * Z;
+  reduced_.G.noalias() = Z.transpose() * weighted_;
+  reduced_.c = weighted_.transpose().lazyProduct(x0);
+  reduced_.c += Z.transpose().lazyProduct(program.c);
   const int rows = program.rows() - equalities;
   reduced_.E.noalias() = program.E.bottomRows(rows) * Z;
   reduced_.lower = program.lower.tail(rows);

@@ -14,12 +14,12 @@ namespace bqsa::baselines {
 class KernelBasis {
  public:
   void assign(const TaskJacobian& J);
-  const QpMatrix& Z() const { return Z_; }
+  const QpMatrix& matrix() const { return kernel_; }
 
  private:
   TaskJacobian rest_;
   std::array<int, kMaxJoints> order_;  // pivot columns first
-  QpMatrix Z_;
+  QpMatrix kernel_;
 };
 
 /// A program in the free variables y alone: x = x0 + Z y, where x0 keeps the equalities J x = b that are
@@ -34,13 +34,15 @@ class CompactProgram {
   QuadraticProgram& reduced() { return reduced_; }
 
   /// x of a solution y, further variables left out.
-  QpVector expand(const QpVector& y) const { return x0_ + basis_.Z() * y.head(basis_.Z().cols()); }
+  QpVector expand(const QpVector& y) const {
+    return x0_ + basis_.matrix() * y.head(basis_.matrix().cols());
+  }
 
  private:
   KernelBasis basis_;
   TaskJacobian J_;
   QpVector x0_;
-  QpMatrix GZ_;
+  QpMatrix weighted_;  // G Z
   QuadraticProgram reduced_;
 };
 

@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "baselines/qp/triangular.hpp"
+
 namespace bqsa::baselines {
 
 void DualNetwork::solve(const QuadraticProgram& program, QpSolution& solution) {
@@ -31,8 +33,8 @@ void DualNetwork::solve(const QuadraticProgram& program, QpSolution& solution) {
     u_ += kStep * r_;
     ++solution.iterations;
   }
-  solution.x = Y_ * u_ - offset_;
-  factor_.triangularView<Eigen::Upper>().solveInPlace(solution.x);
+  solution.x = rows_ * u_ - offset_;
+  solve_upper(factor_, program.variables(), solution.x);
   solution.u = u_.cwiseProduct(scale_);
 }
 
@@ -42,30 +44,32 @@ void DualNetwork::connect(const QuadraticProgram& program) {
   assert(llt.info() == Eigen::Success);
   factor_ = llt.matrixU();
   offset_ = program.c;
-  llt.matrixL().solveInPlace(offset_);
-  Y_ = program.E.transpose();
-  llt.matrixL().solveInPlace(Y_);
-  M_.noalias() = Y_.transpose() * Y_;
+  solve_upper_transposed(factor_, program.variables(), offset_);
+  rows_ = program.E.transpose();
+  for (int row = 0; row < program.rows(); ++row) {
+    solve_upper_transposed(factor_, program.variables(), rows_.col(row));
+  }
+  coupling_.noalias() = rows_.transpose() * rows_;
   scale_.resize(program.rows());
   for (int row = 0; row < program.rows(); ++row) {
-    const double sum = M_.row(row).cwiseAbs().sum();
+    const double sum = coupling_.row(row).cwiseAbs().sum();
     scale_(row) = sum > 0 ? 1 / std::sqrt(sum) : 1;
   }
   for (int row = 0; row < program.rows(); ++row) {
-    Y_.col(row) *= scale_(row);
-    M_.row(row) *= scale_(row);
-    M_.col(row) *= scale_(row);
+    rows_.col(row) *= scale_(row);
+    coupling_.row(row) *= scale_(row);
+    coupling_.col(row) *= scale_(row);
   }
   lower_ = program.lower.cwiseProduct(scale_);
   upper_ = program.upper.cwiseProduct(scale_);
-  shift_.noalias() = Y_.transpose() * offset_;
+  shift_.noalias() = rows_.transpose() * offset_;
 }
 
 /// F(u) and r(u).
 void DualNetwork::respond() {
-  F_.noalias() = M_ * u_;
-  F_ -= shift_;
-  r_ = (F_ - u_).cwiseMax(lower_).cwiseMin(upper_) - F_;
+  output_.noalias() = coupling_ * u_;
+  output_ -= shift_;
+  r_ = (output_ - u_).cwiseMax(lower_).cwiseMin(upper_) - output_;
 }
 
 bool DualNetwork::settled() const {
@@ -84,7 +88,7 @@ bool DualNetwork::certifies_infeasible() {
       v_(row) = 0;
     }
   }
-  return gap > kLargestSolution * (Y_ * v_).norm();
+  return gap > kLargestSolution * (rows_ * v_).norm();
 }
 
 }  // namespace bqsa::baselines

@@ -59,11 +59,11 @@ class DualNetwork {
   QpVector offset_;  // L^-1 c
   // Of the scaled rows:
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxQpVariables, kMaxQpRows>
-      Y_;  // L^-1 Eᵀ, so that M = Yᵀ Y
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxQpRows, kMaxQpRows> M_;
+      rows_;  // L^-1 Eᵀ, so that M = Yᵀ Y
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxQpRows, kMaxQpRows> coupling_;
   QpRowVector scale_, lower_, upper_;
-  QpRowVector shift_;      // E G^-1 c
-  QpRowVector u_, F_, r_;  // state, F(u) and what is missing to rest
+  QpRowVector shift_;           // E G^-1 c
+  QpRowVector u_, output_, r_;  // state, F(u) and what is missing to rest
   QpRowVector v_;
 };
 

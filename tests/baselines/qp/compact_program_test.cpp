@@ -30,7 +30,7 @@ TEST(KernelBasis, SpansTheKernelSingularMatricesIncluded) {
     basis.assign(J);
     Eigen::JacobiSVD<Eigen::MatrixXd> svd(J);
     svd.setThreshold(1e-9);
-    const Eigen::MatrixXd Z = basis.Z();
+    const Eigen::MatrixXd Z = basis.matrix();
     ASSERT_EQ(Z.rows(), columns);
     ASSERT_EQ(Z.cols(), columns - svd.rank()) << trial;
     square += Z.cols() == 0;
