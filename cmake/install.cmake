@@ -5,14 +5,14 @@ include(CMakePackageConfigHelpers)
 
 set(BQSA_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/bqsa-bench)
 
-install(TARGETS bqsa baselines baselines_fcl baselines_ompl harness
+install(TARGETS bqsa baselines baselines_fcl baselines_ompl mixes harness
   EXPORT bqsa-bench-targets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/bqsa-bench)
 if(TARGET bqsa-bench)
   install(TARGETS bqsa-bench RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
-install(DIRECTORY src/bqsa src/baselines src/harness
+install(DIRECTORY src/bqsa src/baselines src/mixes src/harness
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   FILES_MATCHING PATTERN "*.hpp" PATTERN "program" EXCLUDE)
 

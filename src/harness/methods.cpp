@@ -6,6 +6,7 @@
 #include "baselines/planning/self_motion_search.hpp"
 #include "baselines/test_point.hpp"
 #include "bqsa/bqsa_methods.hpp"
+#include "mixes/bqsa_escape.hpp"
 
 namespace bqsa::harness {
 
@@ -17,6 +18,7 @@ const std::vector<MethodEntry>& methods() {
       bqsa_paper_method(),
       bqsa_projection_method(),
       bqsa_lookahead_method(),
+      mixes::bqsa_escape_method(),
       baselines::test_point_method(),
       baselines::maciejewski_klein_method(),
       baselines::fcl_gp_method(),
