@@ -47,13 +47,8 @@ class BqsaEscape final : public ReactiveMethod {
 
   void step(const StepInput& input, StepOutput& output) override {
     surroundings_.look(input.tick, input.q);
-    const bool leans = !surroundings_.escapes().empty();
-    search_->lean(leans ? escape_velocity(input) : upright_);
+    search_->lean(surroundings_.escapes().empty() ? upright_ : escape_velocity(input));
     search_->step(input, output);
-    if (leans && output.state == TickState::kInfeasible) {
-      search_->lean(upright_);
-      search_->step(input, output);
-    }
     counters_ = search_->counters() + escape_counters_;
   }
 

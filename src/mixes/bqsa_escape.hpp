@@ -7,9 +7,9 @@
 namespace bqsa::mixes {
 
 /// `bqsa_escape`: where obstacles are near, the predictor of BQSA leans along the self-motion with
-/// which Maciejewski and Klein's law escapes from the exact closest points; what hits all the same
-/// is cleared, closed over the tip and certified as ever. Where the leaning step fails, the tick is
-/// made once more without leaning. It reacts to this tick's obstacles alone, like both its parts.
+/// which Maciejewski and Klein's law escapes from the exact closest points, as far as the joints'
+/// limits leave room for it; what hits all the same is cleared, closed over the tip and certified as
+/// ever. It reacts to this tick's obstacles alone, like both its parts.
 MethodEntry bqsa_escape_method();
 
 }  // namespace bqsa::mixes
