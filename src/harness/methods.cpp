@@ -1,30 +1,22 @@
 #include "harness/methods.hpp"
 
-#include "baselines/closest_point_methods.hpp"
-#include "baselines/plain_tracking.hpp"
-#include "baselines/planning/ompl_methods.hpp"
-#include "baselines/planning/self_motion_search.hpp"
-#include "baselines/test_point.hpp"
-#include "bqsa/bqsa_methods.hpp"
+// Each line of the list, first as a declaration,
+#define BQSA_METHOD(space, function) \
+  namespace space {                  \
+  MethodEntry function();            \
+  }
+#include "harness/methods.def"
+#undef BQSA_METHOD
 
 namespace bqsa::harness {
 
 const std::vector<MethodEntry>& methods() {
-  // clang-format off
+  // then as an entry.
   static const std::vector<MethodEntry> kMethods = {
-      baselines::plain_tracking_method(),
-      bqsa_method(),
-      bqsa_paper_method(),
-      bqsa_projection_method(),
-      bqsa_lookahead_method(),
-      baselines::test_point_method(),
-      baselines::maciejewski_klein_method(),
-      baselines::fcl_gp_method(),
-      baselines::self_motion_search_method(),
-      baselines::ompl_method(),
-      baselines::ompl_joint_method(),
+#define BQSA_METHOD(space, function) space::function(),
+#include "harness/methods.def"
+#undef BQSA_METHOD
   };
-  // clang-format on
   return kMethods;
 }
 

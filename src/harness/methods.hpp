@@ -8,7 +8,7 @@
 
 namespace bqsa::harness {
 
-/// All methods, in the order in which tables show them. A new method is one line in methods.cpp.
+/// All methods, in the order in which tables show them. A new method is one line in methods.def.
 const std::vector<MethodEntry>& methods();
 
 }  // namespace bqsa::harness
