@@ -9,6 +9,7 @@
 #include <ostream>
 #include <string_view>
 
+#include "harness/methods.hpp"
 #include "harness/results/provenance.hpp"
 
 namespace bqsa::harness {
@@ -44,6 +45,7 @@ std::string command_line_text(int argc, const char* const* argv) {
 
 /// What the options are read into, and the command that was chosen.
 struct CommandLine {
+  std::vector<MethodEntry> methods;
   RunOptions run;
   GenerateOptions generate;
   StepOptions step;
@@ -75,7 +77,7 @@ void add_report_options(CLI::App& command, ReportOptions& report) {
 }
 
 void declare(CLI::App& app, CommandLine& line) {
-  app.set_version_flag("--version", "bqsa-bench " + version_text());
+  app.set_version_flag("--version", "bqsa-bench " + version_text(names_out_of_tree(line.methods)));
   app.footer(kFooter);
   app.require_subcommand(1);
 
@@ -85,7 +87,7 @@ void declare(CLI::App& app, CommandLine& line) {
                    "Directory of scenario files [./scenarios]");
   list->callback([&line] {
     line.command = [&line](const Console& console) {
-      return list_command(line.scenario_directory, console);
+      return list_command(line.methods, line.scenario_directory, console);
     };
   });
 
@@ -129,7 +131,9 @@ void declare(CLI::App& app, CommandLine& line) {
                 "Run methods in this process, without limits, for a profiler or debugger");
   add_report_options(*run, line.run.report);
   run->callback([&line] {
-    line.command = [&line](const Console& console) { return run_command(line.run, console); };
+    line.command = [&line](const Console& console) {
+      return run_command(line.methods, line.run, console);
+    };
   });
 
   CLI::App* show = add_command(app, "show", "Print the table of a results directory");
@@ -157,7 +161,9 @@ void declare(CLI::App& app, CommandLine& line) {
   tick->needs(state)->excludes(slowest);
   state->needs(tick)->excludes(slowest);
   step->callback([&line] {
-    line.command = [&line](const Console& console) { return step_command(line.step, console); };
+    line.command = [&line](const Console& console) {
+      return step_command(line.methods, line.step, console);
+    };
   });
 
   CLI::App* judge = add_command(app, "judge", "Judge any trajectory of a scenario");
@@ -209,11 +215,13 @@ void declare(CLI::App& app, CommandLine& line) {
 
 }  // namespace
 
-int run_program(int argc, const char* const* argv, const Console& console) {
+int run_program(int argc, const char* const* argv, const Console& console,
+                const std::vector<MethodEntry>& added) {
   try {
     CLI::App app("Compares inverse-kinematics methods with obstacle avoidance on the same problems",
                  "bqsa-bench");
     CommandLine line;
+    line.methods = add_methods(added);
     line.run.command_line = command_line_text(argc, argv);
     declare(app, line);
     try {

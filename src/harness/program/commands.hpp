@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "bqsa/method.hpp"
+
 namespace bqsa::harness {
 
 /// Exit status of the program.
@@ -62,11 +64,13 @@ struct RunOptions {
 /// the others; bad methods, equal scenario names and a directory that cannot be written to do,
 /// before anything runs.
 /// @throws InputError for the latter
-Status run_command(const RunOptions& options, const Console& console);
+Status run_command(const std::vector<MethodEntry>& methods, const RunOptions& options,
+                   const Console& console);
 
 /// Prints the methods, the families and the scenarios `*.yaml` of a directory. An empty directory
 /// name stands for ./scenarios, which may be missing.
-Status list_command(const std::filesystem::path& scenarios, const Console& console);
+Status list_command(const std::vector<MethodEntry>& methods, const std::filesystem::path& scenarios,
+                    const Console& console);
 
 /// Prints table or summary of a results directory; lines that are not records are reported and left
 /// out.
@@ -82,7 +86,8 @@ struct StepOptions {
 };
 
 /// Repeats one tick of a method, freshly prepared, and prints what it did and how long it took.
-Status step_command(const StepOptions& options, const Console& console);
+Status step_command(const std::vector<MethodEntry>& methods, const StepOptions& options,
+                    const Console& console);
 
 /// Prints the judgement of one trajectory file.
 Status judge_command(const std::filesystem::path& scenario, const std::filesystem::path& trajectory,
