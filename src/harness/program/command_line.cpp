@@ -16,7 +16,9 @@ namespace bqsa::harness {
 namespace {
 
 constexpr const char* kFooter =
-    "Exit status: 0 done, 1 a run failed (with --strict), 2 bad input or results not written.";
+    "Exit status: 0 done, 1 a run failed (with --strict) or a law is broken (conform), 2 bad input "
+    "or\n"
+    "results not written.";
 
 constexpr int kMostGenerated = 100'000;  // the index in a name has five digits
 
@@ -49,12 +51,15 @@ struct CommandLine {
   RunOptions run;
   GenerateOptions generate;
   StepOptions step;
+  ConformOptions conform;
   ReportOptions report;
   std::filesystem::path scenario_directory;
   std::filesystem::path results_directory;
   std::filesystem::path scenario;
   std::filesystem::path trajectory;
   std::vector<std::filesystem::path> files;
+  std::string method_name;
+  std::filesystem::path tree = ".";
   bool strict = false;
   std::function<Status(const Console&)> command;
 };
@@ -166,6 +171,27 @@ void declare(CLI::App& app, CommandLine& line) {
     };
   });
 
+  CLI::App* conform =
+      add_command(app, "conform", "Check what the contract asks of every method, law by law");
+  conform
+      ->add_option("SCENARIO", line.conform.scenarios,
+                   "Scenario files, or directories with files *.yaml")
+      ->required();
+  conform
+      ->add_option("--method,-m", line.conform.methods,
+                   "Method with parameters, as for run; repeatable")
+      ->required()
+      ->allow_extra_args(false);
+  conform
+      ->add_option("--plan-budget", line.conform.plan_budget,
+                   "Wall time that planning methods may use for a plan [s] [10]")
+      ->check(CLI::Range(1e-3, kMostSeconds));
+  conform->callback([&line] {
+    line.command = [&line](const Console& console) {
+      return conform_command(line.methods, line.conform, console);
+    };
+  });
+
   CLI::App* judge = add_command(app, "judge", "Judge any trajectory of a scenario");
   judge->add_option("SCENARIO", line.scenario, "Scenario file")->required();
   judge
@@ -200,6 +226,16 @@ void declare(CLI::App& app, CommandLine& line) {
   generate->callback([&line] {
     line.command = [&line](const Console& console) {
       return generate_command(line.generate, console);
+    };
+  });
+
+  CLI::App* new_method = add_command(
+      app, "new-method", "Write a method that works, with its test, into the source tree");
+  new_method->add_option("NAME", line.method_name, "Its name, [a-z][a-z0-9_]*")->required();
+  new_method->add_option("--tree", line.tree, "Source tree of the project [.]");
+  new_method->callback([&line] {
+    line.command = [&line](const Console& console) {
+      return new_method_command(line.methods, line.method_name, line.tree, console);
     };
   });
 

@@ -17,7 +17,7 @@ namespace bqsa::harness {
 /// Exit status of the program.
 enum Status {
   kOk = 0,
-  kRunFailed = 1,  ///< with --strict: a run was not judged a success
+  kRunFailed = 1,  ///< conform: a law is broken; with --strict: a run was not judged a success
   kBadInput = 2,   ///< input that cannot be used, or results that cannot be written
 };
 
@@ -93,6 +93,18 @@ Status step_command(const std::vector<MethodEntry>& methods, const StepOptions& 
 Status judge_command(const std::filesystem::path& scenario, const std::filesystem::path& trajectory,
                      bool strict, const Console& console);
 
+struct ConformOptions {
+  std::vector<std::string> methods;              ///< `M[:key=value,...]`
+  std::vector<std::filesystem::path> scenarios;  ///< files, and directories of files `*.yaml`
+  double plan_budget = 10;                       ///< of planning methods [s]
+};
+
+/// Checks the laws of conformance.hpp and prints a line for each that is kept, or that found nothing to
+/// compare, and one for each finding. A finding gives kRunFailed.
+/// @throws InputError for a bad method or scenario, before anything runs
+Status conform_command(const std::vector<MethodEntry>& methods, const ConformOptions& options,
+                       const Console& console);
+
 struct GenerateOptions {
   std::string family;
   int count = 0;
@@ -106,6 +118,13 @@ struct GenerateOptions {
 /// `<family>_s<seed>_<index>.witness.csv`. A file that is there stays if it has the same bytes; with
 /// others it is not overwritten, and nothing is written after it.
 Status generate_command(const GenerateOptions& options, const Console& console);
+
+/// Writes a method that works, NAME.hpp and .cpp with a test, into the project's source tree and adds
+/// its line to the list of methods. Where one of the files is there nothing is written.
+/// @throws InputError for a name that is taken or cannot be used, a tree that is none, or a file that
+///   is there or cannot be written
+Status new_method_command(const std::vector<MethodEntry>& methods, const std::string& name,
+                          const std::filesystem::path& tree, const Console& console);
 
 /// Says of each scenario file, those in directories included, whether it can be used.
 /// @throws InputError for a directory that cannot be listed or holds none
