@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <stdexcept>
@@ -181,6 +182,13 @@ MethodEntry after_runs_on(const std::vector<Problem>& before, const MethodSpec& 
   return entry;
 }
 
+bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
+bool same(const JointVector& a, const JointVector& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](double x, double y) { return same(x, y); });
+}
+
 /// The first difference between two runs; empty if there is none.
 std::string difference(const RunOutcome& a, const RunOutcome& b) {
   if (a.claim != b.claim || a.tick != b.tick) {
@@ -191,7 +199,8 @@ std::string difference(const RunOutcome& a, const RunOutcome& b) {
     return fmt::format("{} and {} rows", a.trajectory.q.size(), b.trajectory.q.size());
   }
   for (std::size_t k = 0; k < a.trajectory.q.size(); ++k) {
-    if (a.trajectory.q[k] != b.trajectory.q[k] || a.trajectory.t[k] != b.trajectory.t[k]) {
+    if (!same(a.trajectory.q[k], b.trajectory.q[k]) ||
+        !same(a.trajectory.t[k], b.trajectory.t[k])) {
       return fmt::format("another row {}", k);
     }
   }

@@ -37,7 +37,7 @@ Problem quiet(const char* name, double speed) {
 }
 
 const std::vector<Problem>& problems() {
-  static const std::vector<Problem> kProblems = {quiet("slow", 0.2), quiet("quick", 0.5)};
+  static const std::vector<Problem> kProblems = {quiet("slow", 0.2), quiet("quick", 0.3)};
   return kProblems;
 }
 
@@ -67,7 +67,8 @@ std::vector<std::string> broken_by(const MethodSpec& method) {
       std::printf("%s: %s: expected %s, found %s\n", finding.law.c_str(), finding.where.c_str(),
                   finding.expected.c_str(), finding.found.c_str());
     }
-    EXPECT_TRUE(check.compared > 0 || !check.not_asked.empty()) << law.name;
+    const bool may_have_no_case = law.name == "limits";  // if it makes no step
+    EXPECT_TRUE(check.compared > 0 || !check.not_asked.empty() || may_have_no_case) << law.name;
   }
   return names;
 }
@@ -78,7 +79,7 @@ TEST(ConformanceLaws, AreKeptByAMethodThatFollows) {
 
 TEST(ConformanceLaws, AreKeptByAMethodThatGivesUp) {
   EXPECT_THAT(broken_by(following([](const StepInput& input, StepOutput& output) {
-                if (input.tick > 3) hold(input.q, Infeasible::kNoFreeMotion, 1, 0, output);
+                if (input.tick > 3) hold(input.q, Infeasible::kNoFreeMotion, 1, -1, output);
               })),
               IsEmpty());
 }
@@ -138,7 +139,7 @@ TEST(ConformanceLaws, SurviveMethodsThatCrashAnywhere) {
   EXPECT_THAT(broken_by(following([](const StepInput& input, StepOutput&) {
                 if (input.tick == 7) _exit(0);
               })),
-              ElementsAre("conduct"));
+              ElementsAre("conduct", "repeatability"));
 
   // Only the second method of a process dies.
   EXPECT_THAT(broken_by(following([](const StepInput& input, StepOutput&) {

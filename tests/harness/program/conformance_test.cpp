@@ -144,9 +144,9 @@ TEST_P(Laws, Kept) {
 INSTANTIATE_TEST_SUITE_P(OfEveryMethod, Laws,
                          ::testing::Combine(::testing::ValuesIn(laws()),
                                             ::testing::ValuesIn(variants())),
-                         [](const ::testing::TestParamInfo<LawAndMethod>& info) {
-                           return std::get<Law>(info.param).name + "_" +
-                                  identifier(std::get<MethodSpec>(info.param));
+                         [](const ::testing::TestParamInfo<LawAndMethod>& tested) {
+                           return std::get<Law>(tested.param).name + "_" +
+                                  identifier(std::get<MethodSpec>(tested.param));
                          });
 
 /// What takes a linker's tricks to see.
@@ -227,7 +227,7 @@ TEST_P(Conformance, AllocationsOfWarmStepsAreReported) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfEveryMethod, Conformance, ::testing::ValuesIn(variants()),
-                         [](const auto& info) { return identifier(info.param); });
+                         [](const auto& tested) { return identifier(tested.param); });
 
 }  // namespace
 
