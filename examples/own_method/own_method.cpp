@@ -20,7 +20,7 @@ struct TryEachJoint final : ReactiveMethod {
     hold(input.q, Infeasible::kStepTooLarge, 0, -1, output);  // unless a motion is found
     for (int k = 0; k <= 2 * chain.joints(); ++k) {           // k = 0: tracking alone
       JointVector phi = JointVector::Zero(chain.joints());
-      if (k > 0) phi((k - 1) / 2) = k % 2 == 0 ? 0.3 : -0.3;  // [rad/s]
+      if (k > 0) phi((k - 1) / 2) = k % 2 == 0 ? 1.0 : -1.0;  // [rad/s]
       solve_hybrid_ik(J, error / problem->dt, JointVector::Ones(chain.joints()), phi, {}, ik);
       ++counters_.linear_solves;
       const JointVector q = input.q + problem->dt * ik.q_dot;

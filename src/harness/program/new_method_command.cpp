@@ -150,7 +150,7 @@ Status new_method_command(const std::vector<MethodEntry>& methods, const std::st
       "Your idea goes into avoidance() in src/baselines/{0}.cpp. Build and test it:\n"
       "  cmake --preset release -DBQSA_BUILD_TESTS=ON -DBQSA_BUILD_BENCHMARKS=OFF\n"
       "  cmake --build --preset release --target bqsa-bench baselines_test conformance_test\n"
-      "  ctest --preset release -R '^{2}[.]|[/_]{0}$'\n"
+      "  ctest --preset release -R '{2}|{0}'\n"
       "See what it does:\n"
       "  build/release/src/harness/program/bqsa-bench run scenarios -m none -m {0} --out "
       "results/local/{0}\n"
