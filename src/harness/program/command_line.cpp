@@ -16,9 +16,8 @@ namespace bqsa::harness {
 namespace {
 
 constexpr const char* kFooter =
-    "Exit status: 0 done, 1 a run failed (with --strict) or a law is broken (conform), 2 bad input "
-    "or\n"
-    "results not written.";
+    "Exit status: 0 done, 1 a run failed (with --strict) or a law is broken (conform),\n"
+    "2 bad input or results not written.";
 
 constexpr int kMostGenerated = 100'000;  // the index in a name has five digits
 
