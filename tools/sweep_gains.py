@@ -1,22 +1,24 @@
 #!/usr/bin/env python3
-"""Tunes the gains of maciejewski_klein and fcl_gp on generated problems that nothing else uses.
+"""Tunes the gains of methods on generated problems that nothing else uses.
 
-  tools/sweep_gains.py DIR [results/gain_sweep/summary.txt]
+  tools/sweep_gains.py DIR [results/gain_sweep/summary.txt]      maciejewski_klein and fcl_gp
+  tools/sweep_gains.py DIR --method M --gain NAME=LOW:HIGH ...   any method, with the same budget
 
-A fixed budget for either method: 60 random settings, then 20 around the best of them. The best has the
+The budget of each method: 60 random settings, then 20 around the best of them. The best has the
 highest share of problems solved, then the lowest median tip error of those it solved. DIR takes the
-problems and all results; the summary lists every setting. Needs the release build.
+problems and all results; the summary lists every setting. Needs the release build, or --program with
+the path of another program that has the method.
 """
+import argparse
 import json
 import math
 import pathlib
 import random
 import statistics
 import subprocess
-import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PROGRAM = ROOT / "build/release/src/harness/program/bqsa-bench"
+STOCK_PROGRAM = ROOT / "build/release/src/harness/program/bqsa-bench"
 PROBLEM_SEED = 9001  # of no other results
 FAMILIES = {"planar": 60, "spatial": 30, "moving": 20}
 SETTINGS_SEED = 1
@@ -29,10 +31,12 @@ GAINS = {
                           "exempt_length": (0.02, 0.2)},
     "fcl_gp": {"influence": (0.02, 0.3), "gradient_gain": (10, 3000), "exempt_length": (0.02, 0.2)},
 }
-FIXED = {"maciejewski_klein": "", "fcl_gp": ",broadphase=on"}  # faster, with the same answers
+CHOICES = {"maciejewski_klein": {"points": ["closest", "all"]},
+           "fcl_gp": {"points": ["closest", "all"]}}
+FIXED = {"fcl_gp": ",broadphase=on"}  # faster, with the same answers
 
 
-def draw(ranges, stream, near=None):
+def draw(method, ranges, stream, near=None):
     """A random setting, or one within a factor of about 1.5 of another."""
     setting = {}
     for name, (low, high) in ranges.items():
@@ -41,7 +45,8 @@ def draw(ranges, stream, near=None):
         else:
             value = math.exp(stream.uniform(math.log(low), math.log(high)))
         setting[name] = float(f"{value:.2g}")
-    setting["points"] = stream.choice(["closest", "all"])
+    for name, choices in CHOICES.get(method, {}).items():
+        setting[name] = stream.choice(choices)
     return setting
 
 
@@ -51,10 +56,10 @@ def specification(method, setting):
         values["full_distance"] = float(f"{values['full_distance'] * values['influence']:.2g}")
     text = ",".join(f"{name}={value if isinstance(value, str) else format(value, '.2g')}"
                     for name, value in values.items())
-    return f"{method}:{text}{FIXED[method]}"
+    return f"{method}:{text}{FIXED.get(method, '')}"
 
 
-def run(method, settings, out):
+def run(program, method, settings, out):
     """(share solved, median tip error [mm], solved by family) of every setting."""
     specs = [specification(method, setting) for setting in settings]
     lines = {}
@@ -63,7 +68,7 @@ def run(method, settings, out):
         for number, spec in enumerate(specs):
             single = directory / f"{spec}".replace(":", "_").replace(",", "_")
             if not (single / "runs.jsonl").exists():
-                subprocess.run([PROGRAM, "run", out / "problems" / family, "--out", single,
+                subprocess.run([program, "run", out / "problems" / family, "--out", single,
                                 "--no-trajectories", "--quiet", "--method", spec],
                                check=True, stdout=subprocess.DEVNULL)
             with open(single / "runs.jsonl", encoding="utf-8") as file:
@@ -85,12 +90,39 @@ def quality(answer):
     return (-answer[0], answer[1])
 
 
+def gain_range(text):
+    """NAME=LOW:HIGH as (name, (low, high))."""
+    try:
+        name, bounds = text.split("=")
+        low, high = (float(bound) for bound in bounds.split(":"))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"expected NAME=LOW:HIGH, got '{text}'") from None
+    if not 0 < low < high < math.inf:
+        raise argparse.ArgumentTypeError(f"expected 0 < LOW < HIGH, got '{text}'")
+    return name, (low, high)
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("directory", type=pathlib.Path, metavar="DIR")
+    parser.add_argument("summary", type=pathlib.Path, nargs="?")
+    parser.add_argument("--method")
+    parser.add_argument("--gain", type=gain_range, action="append", default=[],
+                        metavar="NAME=LOW:HIGH")
+    parser.add_argument("--program", type=pathlib.Path, default=STOCK_PROGRAM)
+    given = parser.parse_args()
+    if bool(given.method) != bool(given.gain):
+        parser.error("expected --method with at least one --gain, or neither")
+    return given
+
+
 def main():
-    if len(sys.argv) not in (2, 3):
-        sys.exit(__doc__)
-    out = pathlib.Path(sys.argv[1])
+    given = arguments()
+    out = given.directory
+    gains = {given.method: dict(given.gain)} if given.method else GAINS
     for family, count in FAMILIES.items():
-        subprocess.run([PROGRAM, "generate", "--family", family, "--count", str(count), "--seed",
+        subprocess.run([given.program, "generate", "--family", family, "--count", str(count), "--seed",
                         str(PROBLEM_SEED), "--robots", ROOT / "robots",
                         "--out", out / "problems" / family],
                        check=True, stdout=subprocess.DEVNULL)
@@ -99,13 +131,13 @@ def main():
               "of them for each method.",
               "Solved of all problems, median over the solved of the largest tip error [mm], solved by "
               "family, setting; best first.", ""]
-    for method, ranges in GAINS.items():
+    for method, ranges in gains.items():
         stream = random.Random(SETTINGS_SEED)
-        settings = [draw(ranges, stream) for _ in range(RANDOM_SETTINGS)]
-        specs, answers = run(method, settings, out)
+        settings = [draw(method, ranges, stream) for _ in range(RANDOM_SETTINGS)]
+        specs, answers = run(given.program, method, settings, out)
         best = min(range(len(settings)), key=lambda k: quality(answers[k]))
-        near = [draw(ranges, stream, settings[best]) for _ in range(NEAR_SETTINGS)]
-        more_specs, more_answers = run(method, near, out)
+        near = [draw(method, ranges, stream, settings[best]) for _ in range(NEAR_SETTINGS)]
+        more_specs, more_answers = run(given.program, method, near, out)
         rows = sorted(zip(specs + more_specs, answers + more_answers), key=lambda r: quality(r[1]))
         report.append(method)
         for spec, (rate, median, solved) in rows:
@@ -114,10 +146,9 @@ def main():
         report.append("")
     text = "\n".join(report)
     print(text)
-    if len(sys.argv) == 3:
-        path = pathlib.Path(sys.argv[2])
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8")
+    if given.summary:
+        given.summary.parent.mkdir(parents=True, exist_ok=True)
+        given.summary.write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

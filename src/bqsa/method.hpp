@@ -136,6 +136,7 @@ struct MethodEntry {
   Capabilities capabilities;
   std::vector<ParameterDeclaration> parameters;
   std::function<std::unique_ptr<Method>(const ParameterValues&)> make;
+  bool out_of_tree = false;  ///< set by the harness: added by a program that is not the stock one
 };
 
 const char* name_of(TickState state);

@@ -9,13 +9,15 @@
 #include <ostream>
 #include <string_view>
 
+#include "harness/methods.hpp"
 #include "harness/results/provenance.hpp"
 
 namespace bqsa::harness {
 namespace {
 
 constexpr const char* kFooter =
-    "Exit status: 0 done, 1 a run failed (with --strict), 2 bad input or results not written.";
+    "Exit status: 0 done, 1 a run failed (with --strict) or a law is broken (conform),\n"
+    "2 bad input or results not written.";
 
 constexpr int kMostGenerated = 100'000;  // the index in a name has five digits
 
@@ -44,15 +46,19 @@ std::string command_line_text(int argc, const char* const* argv) {
 
 /// What the options are read into, and the command that was chosen.
 struct CommandLine {
+  std::vector<MethodEntry> methods;
   RunOptions run;
   GenerateOptions generate;
   StepOptions step;
+  ConformOptions conform;
   ReportOptions report;
   std::filesystem::path scenario_directory;
   std::filesystem::path results_directory;
   std::filesystem::path scenario;
   std::filesystem::path trajectory;
   std::vector<std::filesystem::path> files;
+  std::string method_name;
+  std::filesystem::path tree = ".";
   bool strict = false;
   std::function<Status(const Console&)> command;
 };
@@ -75,7 +81,7 @@ void add_report_options(CLI::App& command, ReportOptions& report) {
 }
 
 void declare(CLI::App& app, CommandLine& line) {
-  app.set_version_flag("--version", "bqsa-bench " + version_text());
+  app.set_version_flag("--version", "bqsa-bench " + version_text(names_out_of_tree(line.methods)));
   app.footer(kFooter);
   app.require_subcommand(1);
 
@@ -85,7 +91,7 @@ void declare(CLI::App& app, CommandLine& line) {
                    "Directory of scenario files [./scenarios]");
   list->callback([&line] {
     line.command = [&line](const Console& console) {
-      return list_command(line.scenario_directory, console);
+      return list_command(line.methods, line.scenario_directory, console);
     };
   });
 
@@ -129,7 +135,9 @@ void declare(CLI::App& app, CommandLine& line) {
                 "Run methods in this process, without limits, for a profiler or debugger");
   add_report_options(*run, line.run.report);
   run->callback([&line] {
-    line.command = [&line](const Console& console) { return run_command(line.run, console); };
+    line.command = [&line](const Console& console) {
+      return run_command(line.methods, line.run, console);
+    };
   });
 
   CLI::App* show = add_command(app, "show", "Print the table of a results directory");
@@ -157,7 +165,30 @@ void declare(CLI::App& app, CommandLine& line) {
   tick->needs(state)->excludes(slowest);
   state->needs(tick)->excludes(slowest);
   step->callback([&line] {
-    line.command = [&line](const Console& console) { return step_command(line.step, console); };
+    line.command = [&line](const Console& console) {
+      return step_command(line.methods, line.step, console);
+    };
+  });
+
+  CLI::App* conform =
+      add_command(app, "conform", "Check what the contract asks of every method, law by law");
+  conform
+      ->add_option("SCENARIO", line.conform.scenarios,
+                   "Scenario files, or directories with files *.yaml")
+      ->required();
+  conform
+      ->add_option("--method,-m", line.conform.methods,
+                   "Method with parameters, as for run; repeatable")
+      ->required()
+      ->allow_extra_args(false);
+  conform
+      ->add_option("--plan-budget", line.conform.plan_budget,
+                   "Wall time that planning methods may use for a plan [s] [10]")
+      ->check(CLI::Range(1e-3, kMostSeconds));
+  conform->callback([&line] {
+    line.command = [&line](const Console& console) {
+      return conform_command(line.methods, line.conform, console);
+    };
   });
 
   CLI::App* judge = add_command(app, "judge", "Judge any trajectory of a scenario");
@@ -197,6 +228,16 @@ void declare(CLI::App& app, CommandLine& line) {
     };
   });
 
+  CLI::App* new_method = add_command(
+      app, "new-method", "Write a method that works, with its test, into the source tree");
+  new_method->add_option("NAME", line.method_name, "Its name, [a-z][a-z0-9_]*")->required();
+  new_method->add_option("--tree", line.tree, "Source tree of the project [.]");
+  new_method->callback([&line] {
+    line.command = [&line](const Console& console) {
+      return new_method_command(line.methods, line.method_name, line.tree, console);
+    };
+  });
+
   CLI::App* validate = add_command(app, "validate", "Check scenario files without running");
   validate->add_option("FILE", line.files, "Scenario files, or directories with files *.yaml")
       ->required();
@@ -209,11 +250,13 @@ void declare(CLI::App& app, CommandLine& line) {
 
 }  // namespace
 
-int run_program(int argc, const char* const* argv, const Console& console) {
+int run_program(int argc, const char* const* argv, const Console& console,
+                const std::vector<MethodEntry>& added) {
   try {
     CLI::App app("Compares inverse-kinematics methods with obstacle avoidance on the same problems",
                  "bqsa-bench");
     CommandLine line;
+    line.methods = add_methods(added);
     line.run.command_line = command_line_text(argc, argv);
     declare(app, line);
     try {

@@ -198,7 +198,8 @@ Json provenance_json(const MachineState& machine, const Circumstances& circumsta
           {"isolated", !circumstances.in_process},
           {"wall_limit_s", circumstances.limits.wall_s},
           {"memory_limit_bytes", circumstances.limits.memory_bytes},
-          {"command_line", circumstances.command_line}};
+          {"command_line", circumstances.command_line},
+          {"out_of_tree", circumstances.out_of_tree}};
 }
 
 Json disturbance_json(const Disturbance& disturbance) {

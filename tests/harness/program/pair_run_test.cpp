@@ -81,7 +81,8 @@ std::set<std::string> documented_keys() {
   all.merge(with_prefix("provenance.",
                         "version commit dirty compiler build_type flags assertions sanitizers "
                         "libraries processor cores governor load_average os date seed "
-                        "plan_budget_s isolated wall_limit_s memory_limit_bytes command_line"));
+                        "plan_budget_s isolated wall_limit_s memory_limit_bytes command_line "
+                        "out_of_tree"));
   return all;
 }
 

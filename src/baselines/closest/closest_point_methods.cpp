@@ -1,4 +1,4 @@
-#include "baselines/closest_point_methods.hpp"
+#include "baselines/closest/closest_point_methods.hpp"
 
 #include "baselines/closest/exact_distance_search.hpp"
 #include "baselines/closest/fcl_distance_search.hpp"

@@ -1,4 +1,4 @@
-#include "baselines/closest_point_methods.hpp"
+#include "baselines/closest/closest_point_methods.hpp"
 
 #include <gtest/gtest.h>
 
