@@ -16,12 +16,14 @@ using baselines::AvoidanceLaw;
 using baselines::AvoidanceSettings;
 using baselines::Escape;
 
+// The gains are the best of results/gain_sweep (tools/sweep_gains.py).
 constexpr AvoidanceSettings kDefaults{.law = AvoidanceLaw::kMaciejewskiKlein,
-                                      .influence = 0.031,
-                                      .full_distance = 0.015,
-                                      .escape_velocity = 0.5,
-                                      .regularization = 1.6e-6,
-                                      .exempt_length = 0.066,
+                                      .influence = 0.14,
+                                      .full_distance = 0.017,
+                                      .escape_velocity = 0.022,
+                                      .regularization = 3.6e-3,
+                                      .exempt_length = 0.033,
+                                      .all_pairs = true,
                                       .obstacle_velocity = true};
 
 class BqsaEscape final : public ReactiveMethod {
