@@ -136,6 +136,7 @@ struct MethodEntry {
   Capabilities capabilities;
   std::vector<ParameterDeclaration> parameters;
   std::function<std::unique_ptr<Method>(const ParameterValues&)> make;
+  std::string external = {};  ///< command line of a method that is a program of its own, else empty
 };
 
 const char* name_of(TickState state);
