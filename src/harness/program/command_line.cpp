@@ -49,6 +49,7 @@ struct CommandLine {
   StepOptions step;
   ReportOptions report;
   std::filesystem::path scenario_directory;
+  std::vector<std::string> listed_externals;
   std::filesystem::path results_directory;
   std::filesystem::path scenario;
   std::filesystem::path trajectory;
@@ -62,6 +63,14 @@ CLI::App* add_command(CLI::App& app, const char* name, const char* description) 
   command->set_version_flag("--version", app.version());
   command->footer(kFooter);
   return command;
+}
+
+void add_external_option(CLI::App& command, std::vector<std::string>& externals) {
+  command
+      .add_option("--external", externals,
+                  "A program as method, NAME=COMMAND, as \"mine=python3 mine.py\"; repeatable\n"
+                  "(docs/external-methods.md)")
+      ->allow_extra_args(false);
 }
 
 void add_report_options(CLI::App& command, ReportOptions& report) {
@@ -83,9 +92,10 @@ void declare(CLI::App& app, CommandLine& line) {
       add_command(app, "list", "List methods with their parameters, families, scenarios");
   list->add_option("--scenarios", line.scenario_directory,
                    "Directory of scenario files [./scenarios]");
+  add_external_option(*list, line.listed_externals);
   list->callback([&line] {
     line.command = [&line](const Console& console) {
-      return list_command(line.scenario_directory, console);
+      return list_command(line.scenario_directory, line.listed_externals, console);
     };
   });
 
@@ -97,6 +107,7 @@ void declare(CLI::App& app, CommandLine& line) {
                   "Method with parameters, M[:key=value,...], as bqsa:increment=1e-3; see list;\n"
                   "repeatable [all methods]")
       ->allow_extra_args(false);
+  add_external_option(*run, line.run.externals);
   run->add_option("--out,-o", line.run.directory,
                   "Results directory; runs are added to an existing one, and the last of a\n"
                   "scenario and method counts, in the table and as trajectory")
@@ -146,6 +157,7 @@ void declare(CLI::App& app, CommandLine& line) {
   step->add_option("SCENARIO", line.step.scenario, "Scenario file")->required();
   step->add_option("--method,-m", line.step.method, "Method with parameters, as for run")
       ->required();
+  add_external_option(*step, line.step.externals);
   CLI::Option* slowest = step->add_option(
       "--slowest", line.step.slowest,
       "Results directory: the slowest tick of this scenario and method, undisturbed");

@@ -42,6 +42,7 @@ struct ReportOptions {
 struct RunOptions {
   std::vector<std::filesystem::path> scenarios;  ///< files, and directories of files `*.yaml`
   std::vector<std::string> methods;              ///< `M[:key=value,...]`; none means all
+  std::vector<std::string> externals;            ///< `NAME=COMMAND`; run too if not in `methods`
   std::filesystem::path directory;
   bool strict = false;
   bool quiet = false;        ///< neither progress nor table
@@ -66,7 +67,9 @@ Status run_command(const RunOptions& options, const Console& console);
 
 /// Prints the methods, the families and the scenarios `*.yaml` of a directory. An empty directory
 /// name stands for ./scenarios, which may be missing.
-Status list_command(const std::filesystem::path& scenarios, const Console& console);
+/// @param externals  `NAME=COMMAND` of methods that are listed too
+Status list_command(const std::filesystem::path& scenarios,
+                    const std::vector<std::string>& externals, const Console& console);
 
 /// Prints table or summary of a results directory; lines that are not records are reported and left
 /// out.
@@ -75,7 +78,8 @@ Status show_command(const std::filesystem::path& directory, const ReportOptions&
 
 struct StepOptions {
   std::filesystem::path scenario;
-  std::string method;             ///< `M[:key=value,...]`
+  std::string method;                  ///< `M[:key=value,...]`
+  std::vector<std::string> externals;  ///< `NAME=COMMAND`
   std::filesystem::path slowest;  ///< a results directory: its slowest tick of scenario and method
   int tick = 0;                   ///< if that is empty
   std::string state;  ///< if that is empty: q1,...,qn [rad] before the step, or a trajectory file

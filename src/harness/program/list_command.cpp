@@ -3,8 +3,8 @@
 #include <ostream>
 
 #include "harness/generator/generator.hpp"
-#include "harness/methods.hpp"
 #include "harness/program/commands.hpp"
+#include "harness/program/known_methods.hpp"
 #include "harness/program/scenario_files.hpp"
 #include "harness/scenario/scenario.hpp"
 
@@ -49,9 +49,12 @@ void print_method(const MethodEntry& method, std::ostream& out) {
 
 }  // namespace
 
-Status list_command(const std::filesystem::path& scenarios, const Console& console) {
+Status list_command(const std::filesystem::path& scenarios,
+                    const std::vector<std::string>& externals, const Console& console) {
+  const std::vector<MethodEntry> known = known_methods(externals);
+
   console.out << "methods (parameter, default, unit, range, meaning)\n";
-  for (const MethodEntry& method : methods()) print_method(method, console.out);
+  for (const MethodEntry& method : known) print_method(method, console.out);
 
   console.out << "\nfamilies of random scenarios, for generate\n";
   for (const Family& family : families()) {

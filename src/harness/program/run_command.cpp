@@ -9,6 +9,7 @@
 
 #include "harness/methods.hpp"
 #include "harness/program/commands.hpp"
+#include "harness/program/known_methods.hpp"
 #include "harness/program/report.hpp"
 #include "harness/program/scenario_files.hpp"
 #include "harness/results/pair_run.hpp"
@@ -16,17 +17,21 @@
 namespace bqsa::harness {
 namespace {
 
-std::vector<MethodSpec> chosen_methods(const std::vector<std::string>& texts) {
+std::vector<MethodSpec> chosen_methods(const RunOptions& options) {
+  const std::vector<MethodEntry> known = known_methods(options.externals);
   std::vector<MethodSpec> chosen;
-  if (texts.empty()) {
-    for (const MethodEntry& entry : methods()) chosen.push_back(with_defaults(entry));
-  }
   std::set<std::string> seen;
-  for (const std::string& text : texts) {
-    chosen.push_back(parse_method_spec(text, methods()));
+  std::set<std::string> named;
+  for (const std::string& text : options.methods) {
+    chosen.push_back(parse_method_spec(text, known));
+    named.insert(chosen.back().entry.name);
     if (!seen.insert(variant_name(chosen.back())).second) {
       throw InputError(fmt::format("method '{}' is given twice", text));
     }
+  }
+  for (const MethodEntry& entry : known) {
+    const bool takes_part = options.methods.empty() || !entry.external.empty();
+    if (takes_part && !named.contains(entry.name)) chosen.push_back(with_defaults(entry));
   }
   return chosen;
 }
@@ -137,7 +142,7 @@ void Console::error(std::string_view message) const {
 
 Status run_command(const RunOptions& options, const Console& console) {
   if (options.directory.empty()) throw InputError("--out: expected a directory, got nothing");
-  const std::vector<MethodSpec> specs = chosen_methods(options.methods);
+  const std::vector<MethodSpec> specs = chosen_methods(options);
   const Circumstances circumstances = circumstances_of(options);
   const std::vector<std::filesystem::path> named = with_directories_opened(options.scenarios);
   const std::vector<std::filesystem::path> files = usable(named, console);
