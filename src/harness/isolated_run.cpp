@@ -89,14 +89,14 @@ using Size = std::uint64_t;
 
 /// The forked process, from its first to its last instruction.
 [[noreturn]] void run_in_child(pid_t parent, Pipe& answer, Pipe& errors, const RunLimits& limits,
-                               const auto& run) {
+                               bool limits_address_space, const auto& run) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(EXIT_FAILURE);  // it has died before the line above
   prctl(PR_SET_CHILD_SUBREAPER, 1);              // whatever the run starts stays below this process
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(number, SIG_DFL);
   limit(RLIMIT_CORE, 0);
-  if (!kSanitized) limit(RLIMIT_AS, address_space_of(getpid()) + limits.memory_bytes);
+  if (limits_address_space) limit(RLIMIT_AS, address_space_of(getpid()) + limits.memory_bytes);
   answer.read_end.close();
   errors.read_end.close();
   const Descriptor nowhere(open("/dev/null", O_RDWR | O_CLOEXEC));
@@ -252,7 +252,7 @@ RunOutcome run_isolated(const Problem& problem, const MethodEntry& method,
   const pid_t process = fork();
   if (process < 0) refuse("cannot start a process for a run");
   if (process == 0) {
-    run_in_child(parent, answer, errors, limits,
+    run_in_child(parent, answer, errors, limits, !kSanitized && method.external.empty(),
                  [&] { return run_method(problem, method, parameters, settings, &*progress); });
   }
   setpgid(process, process);  // whoever comes first

@@ -25,7 +25,8 @@ struct RunLimits {
 /// be explained by the wall time of the run: otherwise work was hidden, or the clock was not the
 /// harness' own. Of an external method it is the processor time of the outcome.
 ///
-/// Under the address sanitizer, which reserves more than any limit, only resident memory is limited.
+/// Under the address sanitizer, and of external methods, only resident memory is limited: the sanitizer
+/// and the run-times of some languages reserve more address space than any limit.
 /// The calling process must have one thread.
 /// @throws std::system_error if there is no process or pipe to be had
 RunOutcome run_isolated(const Problem& problem, const MethodEntry& method,
