@@ -109,7 +109,8 @@ def step(problem, parameters, request):
     push = add(push, least_squares(J, apply(J, push)), -1)  # its part that leaves the tip where it is
     fits = min(min(1, max(limit - abs(v), 0) / abs(p)) if p else 1
                for limit, v, p in zip(problem["max_step"], track, push))
-    return {"q": add(add(q, track), push, fits), "state": "unclaimed", "clamps": clamps}
+    return {"tick": tick, "q": add(add(q, track), push, fits), "state": "unclaimed",
+            "clamps": clamps}
 
 def main():
     for line in sys.stdin:

@@ -182,7 +182,11 @@ void read_step_answer(std::string_view line, const StepInput& input, int obstacl
                       StepOutput& output, WorkCounters& counters) {
   const nlohmann::json json = parse(line);
   const AnswerValue answer(json);
-  answer.expect_keys({"q", "state", "reason", "link", "obstacle", "clamps", "counters"});
+  answer.expect_keys({"tick", "q", "state", "reason", "link", "obstacle", "clamps", "counters"});
+  // A line too many would else stand for the answer to the next request, and so on to the end.
+  if (answer["tick"].integer(0, kMost) != input.tick) {
+    answer["tick"].refuse(fmt::format("{}, the tick that was asked for", input.tick));
+  }
   output = {};
   read_counters(answer, counters);
   output.state = named(answer["state"], kStates);

@@ -26,13 +26,14 @@ std::string describe_fault(const std::string& line) {
   return message_of([&] { read_describe_answer(line); });
 }
 
-/// Of two joints and three obstacles.
+/// The answer to step 7, of two joints and three obstacles.
 struct Step {
   StepOutput output;
   WorkCounters counters;
 
   explicit Step(const std::string& line) {
     StepInput input;
+    input.tick = 7;
     input.q = Eigen::Vector2d(0.25, 0.5);
     read_step_answer(line, input, 3, output, counters);
   }
@@ -116,7 +117,7 @@ TEST(Answers, DescriptionsAreCheckedKeyByKey) {
 
 TEST(Answers, AStepIsRead) {
   const Step step(
-      R"({"q": [1, -2.5e-3], "state": "clamped",
+      R"({"tick": 7, "q": [1, -2.5e-3], "state": "clamped",
           "clamps": [{"link": 2, "obstacle": 1}, {"link": 1, "obstacle": 0, "anchor": 1, "offset": -0.5, "increments": 7}],
           "counters": {"jacobians": 18446744073709551615, "iterations": 3}})");
   EXPECT_EQ(step.output.q, JointVector(Eigen::Vector2d(1, -2.5e-3)));
@@ -129,37 +130,40 @@ TEST(Answers, AStepIsRead) {
   EXPECT_EQ(step.output.clamps[1].increments, 7);
   EXPECT_EQ(step.counters.jacobians, ~std::uint64_t{0});
   EXPECT_EQ(step.counters.iterations, 3u);
-  EXPECT_EQ(Step(R"({"q": [0, 0], "state": "unclaimed"})").output.state, TickState::kUnclaimed);
+  EXPECT_EQ(Step(R"({"tick": 7, "q": [0, 0], "state": "unclaimed"})").output.state,
+            TickState::kUnclaimed);
 }
 
 TEST(Answers, AMethodMayGiveUp) {
   const Step step(
-      R"({"state": "infeasible", "reason": "no free motion", "link": 2, "obstacle": 1})");
+      R"({"tick": 7, "state": "infeasible", "reason": "no free motion", "link": 2, "obstacle": 1})");
   EXPECT_EQ(step.output.state, TickState::kInfeasible);
   EXPECT_EQ(step.output.reason, Infeasible::kNoFreeMotion);
   EXPECT_EQ(step.output.link, 2);
   EXPECT_EQ(step.output.obstacle, 1);
   EXPECT_EQ(step.output.q, JointVector(Eigen::Vector2d(0.25, 0.5))) << "the arm holds";
-  const Step shorter(R"({"state": "infeasible", "reason": "diverged"})");
+  const Step shorter(R"({"tick": 7, "state": "infeasible", "reason": "diverged"})");
   EXPECT_EQ(shorter.output.link, 0);
   EXPECT_EQ(shorter.output.obstacle, -1);
 }
 
 TEST(Answers, StepsAreCheckedKeyByKey) {
-  const std::string head = R"({"q": [0, 0], "state": "clamped", )";
+  const std::string head = R"({"tick": 7, "q": [0, 0], "state": "clamped", )";
   const std::vector<std::pair<std::string, std::string>> faults{
       {"", "expected one line that is a JSON object, got ''"},
       {"{} {}", "expected one line that is a JSON object, got '{} {}'"},
-      {R"({"q": [0, 1e999], "state": "free"})", "expected one line that is a JSON object"},
-      {R"({"q": [0, true], "state": "free"})", "q[1]: expected a finite number, got true"},
-      {R"({"q": {}, "state": "free"})",
+      {R"({"tick": 7, "q": [0, 1e999], "state": "free"})",
+       "expected one line that is a JSON object"},
+      {R"({"tick": 7, "q": [0, true], "state": "free"})",
+       "q[1]: expected a finite number, got true"},
+      {R"({"tick": 7, "q": {}, "state": "free"})",
        "q: expected a list of 2 joint angles [rad], got an object"},
-      {R"({"q": [0, 0]})", "expected a key 'state', got none"},
-      {R"({"state": "infeasible"})", "expected a key 'reason', got none"},
-      {R"({"state": "infeasible", "reason": "tired"})",
+      {R"({"tick": 7, "q": [0, 0]})", "expected a key 'state', got none"},
+      {R"({"tick": 7, "state": "infeasible"})", "expected a key 'reason', got none"},
+      {R"({"tick": 7, "state": "infeasible", "reason": "tired"})",
        "reason: expected one of 'no free configuration', 'no free motion', 'joint step too large', "
        "'joint limit', 'diverged', got \"tired\""},
-      {R"({"state": "infeasible", "reason": "diverged", "obstacle": 3})",
+      {R"({"tick": 7, "state": "infeasible", "reason": "diverged", "obstacle": 3})",
        "obstacle: expected a whole number from -1 to 2, got 3"},
       {head + R"("reason": "diverged"})", "reason: expected no such key but for the state"},
       {head + R"("clamps": [{"link": 0, "obstacle": 0}]})",
@@ -174,6 +178,9 @@ TEST(Answers, StepsAreCheckedKeyByKey) {
       {head + R"("counters": {"jacobians": -1}})",
        "counters.jacobians: expected a whole number from 0 on, got -1"},
       {head + R"("counters": {"guesses": 1}})", "counters: expected no keys but quadratics"},
+      {R"({"q": [0, 0], "state": "free"})", "expected a key 'tick', got none"},
+      {R"({"tick": 6, "q": [0, 0], "state": "free"})",
+       "tick: expected 7, the tick that was asked for, got 6"},
       {R"({"error": "lost\nmy way"})", "it failed: lost my way"},
       {R"({"error": 1})", "error: expected a text, got 1"}};
   for (const auto& [line, message] : faults) EXPECT_THAT(step_fault(line), StartsWith(message));

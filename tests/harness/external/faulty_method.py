@@ -105,6 +105,7 @@ FAULTS = {
     "garbage": lambda _: say_raw("hello\n"),
     "binary": lambda _: say_raw("\x07\x1b[31m\n"),
     "a_list": lambda _: say([1, 2]),
+    "other_tick": lambda answer: say(changed(answer, tick=5)),
     "missing_key": lambda answer: say(changed(answer, q="left out")),
     "wrong_type": lambda answer: say(changed(answer, q="straight on")),
     "three_joints": lambda answer: say(changed(answer, q=[0, 0, 0])),
@@ -160,7 +161,7 @@ def main():
         elif kind == "prepare":
             problem, answer = request["problem"], {}
         elif kind == "step":
-            answer = {"q": motion(request["t"]), "state": "free"}
+            answer = {"tick": request["tick"], "q": motion(request["t"]), "state": "free"}
         elif kind == "plan":
             times = [k * problem["dt"] for k in range(problem["ticks"] + 1)]
             answer = {"solved": True, "trajectory": {"t": times, "q": [motion(t) for t in times]}}
