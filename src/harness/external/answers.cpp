@@ -96,11 +96,11 @@ Capabilities capabilities_of(const AnswerValue& value) {
   return can;
 }
 
-template <typename Enum, std::size_t n>
-Enum named(const AnswerValue& value, const std::array<Enum, n>& known) {
+template <typename Enums>
+auto named(const AnswerValue& value, const Enums& known) -> typename Enums::value_type {
   const std::string text = value.text();
   std::string names;
-  for (const Enum one : known) {
+  for (const auto one : known) {
     if (text == name_of(one)) return one;
     names += fmt::format("{}'{}'", names.empty() ? "" : ", ", name_of(one));
   }

@@ -81,6 +81,7 @@ class ExternalProcess::Deadline {
 ExternalProcess::ExternalProcess(std::string command) : command_(std::move(command)) {
   std::vector<std::string> words = command_words(command_);
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   std::signal(SIGPIPE, SIG_IGN);  // a program that has gone away is found out by write()

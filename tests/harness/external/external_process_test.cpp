@@ -1,11 +1,14 @@
 #include "harness/external/external_process.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include "harness/program/temporary_directory.hpp"
+#include "running_process.hpp"
 
 namespace bqsa::harness {
 namespace {
@@ -34,8 +37,8 @@ TEST(ExternalProcess, AnswersALineWithALine) {
 }
 
 TEST(ExternalProcess, ALimitEndsTheWait) {
-  for (const char* command : {"sleep 1000", "sh -c 'while :; do echo noise >&2; done'",
-                              "sh -c 'printf unended; sleep 1000'"}) {
+  for (const char* command : {"sleep 1000", "sh -c 'yes noise | cat >&2'",
+                              "sh -c 'read line; printf unended; sleep 1000'"}) {
     const std::string fault = fault_of(command, {.name = "describe", .line = "{}", .limit_s = 0.3});
     EXPECT_THAT(fault, HasSubstr(command));
     EXPECT_THAT(fault, EndsWith("asked to describe: expected an answer within 0.3 s, got none"));
@@ -43,7 +46,8 @@ TEST(ExternalProcess, ALimitEndsTheWait) {
 }
 
 TEST(ExternalProcess, ALineIsRefusedWhenItIsTooLongAlready) {
-  EXPECT_THAT(fault_of("cat /dev/zero", {.name = "x", .line = "", .longest_answer = 1000}),
+  EXPECT_THAT(fault_of("sh -c 'read line; exec cat /dev/zero'",
+                       {.name = "x", .line = "", .longest_answer = 1000}),
               HasSubstr("a line of at most 0.000954 MiB"));
   const std::string just_right(1000, 'x');
   EXPECT_EQ(ExternalProcess("cat").ask({.name = "x", .line = just_right, .longest_answer = 1000}),
@@ -59,7 +63,21 @@ TEST(ExternalProcess, TheLastLineOfTheStandardErrorIsShown) {
             "expected one line, got none: ended its process with exit status 7: why");
 }
 
+TEST(ExternalProcess, WhatIsWrittenUnaskedIsNoAnswer) {
+  const TemporaryDirectory directory;
+  const std::string mark = directory.path() / "mark";
+  ExternalProcess program("sh -c 'echo early; touch " + mark + "; cat'");
+  ASSERT_TRUE(within_a_minute([&mark] { return std::filesystem::exists(mark); }));
+  try {
+    program.ask({.name = "x", .line = "late"});
+    FAIL() << "took it for the answer";
+  } catch (const ExternalFault& fault) {
+    EXPECT_THAT(fault.what(), HasSubstr("nothing before, got 'early\\x0a' too early"));
+  }
+}
+
 TEST(ExternalProcess, TheProgramGetsNoFilesOfTheHarness) {
+  const Descriptor passed_on(open("/dev/null", O_RDONLY));  // but for what the class does
   ExternalProcess program("sh -c 'read line; ls /proc/self/fd | tr \"\\n\" \" \"; echo'");
   // 3 is the directory that is listed.
   EXPECT_EQ(program.ask({.name = "list", .line = ""}), "0 1 2 3 ");
