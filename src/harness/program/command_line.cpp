@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "harness/methods.hpp"
+#include "harness/program/external_methods.hpp"
 #include "harness/results/provenance.hpp"
 
 namespace bqsa::harness {
@@ -46,7 +47,8 @@ std::string command_line_text(int argc, const char* const* argv) {
 
 /// What the options are read into, and the command that was chosen.
 struct CommandLine {
-  std::vector<MethodEntry> methods;
+  std::vector<MethodEntry> methods;    ///< of this program
+  std::vector<std::string> externals;  ///< `NAME=COMMAND`
   RunOptions run;
   GenerateOptions generate;
   StepOptions step;
@@ -61,6 +63,8 @@ struct CommandLine {
   std::filesystem::path tree = ".";
   bool strict = false;
   std::function<Status(const Console&)> command;
+
+  std::vector<MethodEntry> known() const { return with_externals(methods, externals); }
 };
 
 CLI::App* add_command(CLI::App& app, const char* name, const char* description) {
@@ -68,6 +72,14 @@ CLI::App* add_command(CLI::App& app, const char* name, const char* description) 
   command->set_version_flag("--version", app.version());
   command->footer(kFooter);
   return command;
+}
+
+void add_external_option(CLI::App& command, std::vector<std::string>& externals) {
+  command
+      .add_option("--external", externals,
+                  "A program as method, NAME=COMMAND, as \"mine=python3 mine.py\"; repeatable\n"
+                  "(docs/external-methods.md)")
+      ->allow_extra_args(false);
 }
 
 void add_report_options(CLI::App& command, ReportOptions& report) {
@@ -89,9 +101,10 @@ void declare(CLI::App& app, CommandLine& line) {
       add_command(app, "list", "List methods with their parameters, families, scenarios");
   list->add_option("--scenarios", line.scenario_directory,
                    "Directory of scenario files [./scenarios]");
+  add_external_option(*list, line.externals);
   list->callback([&line] {
     line.command = [&line](const Console& console) {
-      return list_command(line.methods, line.scenario_directory, console);
+      return list_command(line.known(), line.scenario_directory, console);
     };
   });
 
@@ -103,6 +116,7 @@ void declare(CLI::App& app, CommandLine& line) {
                   "Method with parameters, M[:key=value,...], as bqsa:increment=1e-3; see list;\n"
                   "repeatable [all methods]")
       ->allow_extra_args(false);
+  add_external_option(*run, line.externals);
   run->add_option("--out,-o", line.run.directory,
                   "Results directory; runs are added to an existing one, and the last of a\n"
                   "scenario and method counts, in the table and as trajectory")
@@ -136,7 +150,7 @@ void declare(CLI::App& app, CommandLine& line) {
   add_report_options(*run, line.run.report);
   run->callback([&line] {
     line.command = [&line](const Console& console) {
-      return run_command(line.methods, line.run, console);
+      return run_command(line.known(), line.run, console);
     };
   });
 
@@ -154,6 +168,7 @@ void declare(CLI::App& app, CommandLine& line) {
   step->add_option("SCENARIO", line.step.scenario, "Scenario file")->required();
   step->add_option("--method,-m", line.step.method, "Method with parameters, as for run")
       ->required();
+  add_external_option(*step, line.externals);
   CLI::Option* slowest = step->add_option(
       "--slowest", line.step.slowest,
       "Results directory: the slowest tick of this scenario and method, undisturbed");
@@ -166,7 +181,7 @@ void declare(CLI::App& app, CommandLine& line) {
   state->needs(tick)->excludes(slowest);
   step->callback([&line] {
     line.command = [&line](const Console& console) {
-      return step_command(line.methods, line.step, console);
+      return step_command(line.known(), line.step, console);
     };
   });
 
@@ -181,13 +196,14 @@ void declare(CLI::App& app, CommandLine& line) {
                    "Method with parameters, as for run; repeatable")
       ->required()
       ->allow_extra_args(false);
+  add_external_option(*conform, line.externals);
   conform
       ->add_option("--plan-budget", line.conform.plan_budget,
                    "Wall time that planning methods may use for a plan [s] [10]")
       ->check(CLI::Range(1e-3, kMostSeconds));
   conform->callback([&line] {
     line.command = [&line](const Console& console) {
-      return conform_command(line.methods, line.conform, console);
+      return conform_command(line.known(), line.conform, console);
     };
   });
 

@@ -9,6 +9,7 @@
 
 #include "harness/methods.hpp"
 #include "harness/program/commands.hpp"
+#include "harness/program/external_methods.hpp"
 #include "harness/program/report.hpp"
 #include "harness/program/scenario_files.hpp"
 #include "harness/results/pair_run.hpp"
@@ -19,15 +20,18 @@ namespace {
 std::vector<MethodSpec> chosen_methods(const std::vector<MethodEntry>& methods,
                                        const std::vector<std::string>& texts) {
   std::vector<MethodSpec> chosen;
-  if (texts.empty()) {
-    for (const MethodEntry& entry : methods) chosen.push_back(with_defaults(entry));
-  }
   std::set<std::string> seen;
+  std::set<std::string> named;
   for (const std::string& text : texts) {
     chosen.push_back(parse_method_spec(text, methods));
+    named.insert(chosen.back().entry.name);
     if (!seen.insert(variant_name(chosen.back())).second) {
       throw InputError(fmt::format("method '{}' is given twice", text));
     }
+  }
+  for (const MethodEntry& entry : methods) {
+    const bool takes_part = texts.empty() || !entry.external.empty();
+    if (takes_part && !named.contains(entry.name)) chosen.push_back(with_defaults(entry));
   }
   return chosen;
 }

@@ -7,6 +7,7 @@
 #include <ostream>
 
 #include "harness/program/commands.hpp"
+#include "harness/program/external_methods.hpp"
 #include "harness/results/result_store.hpp"
 #include "harness/results/run_record.hpp"
 #include "harness/results/table_row.hpp"
