@@ -11,6 +11,7 @@
 #include "harness/external/external_process.hpp"
 #include "harness/external/requests.hpp"
 #include "harness/input_error.hpp"
+#include "harness/methods.hpp"
 
 namespace bqsa::harness {
 namespace {

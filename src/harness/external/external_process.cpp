@@ -180,11 +180,12 @@ std::string ExternalProcess::receive(const ExternalRequest& request, const Deadl
     }
   }
   std::string line = std::exchange(read_, {});
-  if (end + 1 < line.size()) {
-    throw fault(request, fmt::format("expected one line, got more: '{}' after the first",
-                                     excerpt(line.substr(end + 1))));
-  }
+  const std::string more = line.substr(end + 1);
   line.resize(end);
+  if (!more.empty()) {
+    throw fault(request, fmt::format("expected one line, got '{}' and after it '{}'", excerpt(line),
+                                     excerpt(more)));
+  }
   return line;
 }
 
