@@ -1,19 +1,19 @@
 #!/usr/bin/env python3
-"""Tunes the gains of maciejewski_klein and fcl_gp on generated problems that nothing else uses.
+"""Tunes the gains of methods on generated problems that nothing else uses.
 
-  tools/sweep_gains.py DIR [results/gain_sweep/summary.txt]
+  tools/sweep_gains.py DIR [results/gain_sweep/summary.txt] [--methods NAME,...]
 
-A fixed budget for either method: 60 random settings, then 20 around the best of them. The best has the
-highest share of problems solved, then the lowest median tip error of those it solved. DIR takes the
-problems and all results; the summary lists every setting. Needs the release build.
+A fixed budget for every entry of the table below: 60 random settings, then 20 around the best of them.
+The best has the highest share of problems solved, then the lowest median tip error of those it solved.
+DIR takes the problems and all results; the summary lists every setting. Needs the release build.
 """
+import argparse
 import json
 import math
 import pathlib
 import random
 import statistics
 import subprocess
-import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRAM = ROOT / "build/release/src/harness/program/bqsa-bench"
@@ -22,26 +22,38 @@ FAMILIES = {"planar": 60, "spatial": 30, "moving": 20}
 SETTINGS_SEED = 1
 RANDOM_SETTINGS, NEAR_SETTINGS = 60, 20
 
-# name: (lowest, highest), drawn with a uniform logarithm; full_distance is a part of influence.
+# name: (lowest, highest), drawn with a uniform logarithm, or choices; full_distance is a part of
+# influence. What follows the method's name tells entries of one method apart.
+POINTS = ["closest", "all"]
 GAINS = {
     "maciejewski_klein": {"influence": (0.02, 0.3), "full_distance": (0.1, 0.9),
                           "escape_velocity": (0.01, 1), "regularization": (1e-7, 1e-2),
-                          "exempt_length": (0.02, 0.2)},
-    "fcl_gp": {"influence": (0.02, 0.3), "gradient_gain": (10, 3000), "exempt_length": (0.02, 0.2)},
+                          "exempt_length": (0.02, 0.2), "points": POINTS},
+    "fcl_gp": {"influence": (0.02, 0.3), "gradient_gain": (10, 3000), "exempt_length": (0.02, 0.2),
+               "points": POINTS},
+    "test_point": {"influence": (0.02, 0.3), "full_distance": (0.1, 0.9),
+                   "escape_velocity": (0.01, 1), "regularization": (1e-7, 1e-2),
+                   "exempt_length": (0.02, 0.2)},
+    "test_point gradient_projection": {"influence": (0.02, 0.3), "gradient_gain": (10, 3000),
+                                       "exempt_length": (0.02, 0.2)},
 }
-FIXED = {"maciejewski_klein": "", "fcl_gp": ",broadphase=on"}  # faster, with the same answers
+FIXED = {"fcl_gp": ",broadphase=on",  # faster, with the same answers
+         "test_point gradient_projection": ",law=gradient_projection"}
 
 
 def draw(ranges, stream, near=None):
     """A random setting, or one within a factor of about 1.5 of another."""
     setting = {}
-    for name, (low, high) in ranges.items():
+    for name, values in ranges.items():
+        if isinstance(values, list):
+            setting[name] = stream.choice(values)
+            continue
+        low, high = values
         if near:
             value = min(max(near[name] * math.exp(stream.uniform(-0.4, 0.4)), low), high)
         else:
             value = math.exp(stream.uniform(math.log(low), math.log(high)))
         setting[name] = float(f"{value:.2g}")
-    setting["points"] = stream.choice(["closest", "all"])
     return setting
 
 
@@ -51,7 +63,7 @@ def specification(method, setting):
         values["full_distance"] = float(f"{values['full_distance'] * values['influence']:.2g}")
     text = ",".join(f"{name}={value if isinstance(value, str) else format(value, '.2g')}"
                     for name, value in values.items())
-    return f"{method}:{text}{FIXED[method]}"
+    return f"{method.split()[0]}:{text}{FIXED.get(method, '')}"
 
 
 def run(method, settings, out):
@@ -86,9 +98,16 @@ def quality(answer):
 
 
 def main():
-    if len(sys.argv) not in (2, 3):
-        sys.exit(__doc__)
-    out = pathlib.Path(sys.argv[1])
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("out", metavar="DIR", type=pathlib.Path)
+    parser.add_argument("summary", metavar="SUMMARY", type=pathlib.Path, nargs="?")
+    parser.add_argument("--methods", metavar="NAME,...", help="entries of the table, default all")
+    arguments = parser.parse_args()
+    chosen = arguments.methods.split(",") if arguments.methods else list(GAINS)
+    if unknown := [name for name in chosen if name not in GAINS]:
+        parser.error(f"--methods: expected some of {', '.join(GAINS)}, got {', '.join(unknown)}")
+    out = arguments.out
     for family, count in FAMILIES.items():
         subprocess.run([PROGRAM, "generate", "--family", family, "--count", str(count), "--seed",
                         str(PROBLEM_SEED), "--robots", ROOT / "robots",
@@ -99,7 +118,8 @@ def main():
               "of them for each method.",
               "Solved of all problems, median over the solved of the largest tip error [mm], solved by "
               "family, setting; best first.", ""]
-    for method, ranges in GAINS.items():
+    for method in chosen:
+        ranges = GAINS[method]
         stream = random.Random(SETTINGS_SEED)
         settings = [draw(ranges, stream) for _ in range(RANDOM_SETTINGS)]
         specs, answers = run(method, settings, out)
@@ -114,10 +134,9 @@ def main():
         report.append("")
     text = "\n".join(report)
     print(text)
-    if len(sys.argv) == 3:
-        path = pathlib.Path(sys.argv[2])
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8")
+    if arguments.summary:
+        arguments.summary.parent.mkdir(parents=True, exist_ok=True)
+        arguments.summary.write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":
