@@ -22,8 +22,8 @@ FAMILIES = {"planar": 60, "spatial": 30, "moving": 20}
 SETTINGS_SEED = 1
 RANDOM_SETTINGS, NEAR_SETTINGS = 60, 20
 
-# name: (lowest, highest), drawn with a uniform logarithm, or choices; full_distance is a part of
-# influence. What follows the method's name tells entries of one method apart.
+# name: (lowest, highest), drawn with a uniform logarithm, or choices; full_distance and floor are
+# parts of influence. What follows the method's name tells entries of one method apart.
 POINTS = ["closest", "all"]
 GAINS = {
     "maciejewski_klein": {"influence": (0.02, 0.3), "full_distance": (0.1, 0.9),
@@ -31,6 +31,16 @@ GAINS = {
                           "exempt_length": (0.02, 0.2), "points": POINTS},
     "fcl_gp": {"influence": (0.02, 0.3), "gradient_gain": (10, 3000), "exempt_length": (0.02, 0.2),
                "points": POINTS},
+    "potential_field": {"influence": (0.02, 0.3), "gain": (1e-8, 1e-3), "floor": (0.02, 0.5),
+                        "exempt_length": (0.02, 0.2), "points": POINTS},
+    "potential_field task": {"influence": (0.02, 0.3), "gain": (1e-8, 1e-3), "floor": (0.02, 0.5),
+                             "exempt_length": (0.02, 0.2), "points": POINTS},
+    "weighted_least_norm": {"influence": (0.02, 0.3), "gain": (1e-5, 100), "decay": (1, 300),
+                            "exponent": (0.5, 3), "exempt_length": (0.02, 0.2), "points": POINTS,
+                            "motion": ["last", "planned"]},
+    "extended_jacobian": {"influence": (0.02, 0.3), "posture_weight": (1e-3, 100),
+                          "convergence": (0.02, 1), "damping": (1e-3, 10),
+                          "exempt_length": (0.02, 0.2), "correction": ["descent", "newton"]},
     "test_point": {"influence": (0.02, 0.3), "full_distance": (0.1, 0.9),
                    "escape_velocity": (0.01, 1), "regularization": (1e-7, 1e-2),
                    "exempt_length": (0.02, 0.2)},
@@ -38,6 +48,7 @@ GAINS = {
                                        "exempt_length": (0.02, 0.2)},
 }
 FIXED = {"fcl_gp": ",broadphase=on",  # faster, with the same answers
+         "potential_field task": ",where=task",
          "test_point gradient_projection": ",law=gradient_projection"}
 
 
@@ -59,8 +70,9 @@ def draw(ranges, stream, near=None):
 
 def specification(method, setting):
     values = dict(setting)
-    if "full_distance" in values:
-        values["full_distance"] = float(f"{values['full_distance'] * values['influence']:.2g}")
+    for part in ("full_distance", "floor"):
+        if part in values:
+            values[part] = float(f"{values[part] * values['influence']:.2g}")
     text = ",".join(f"{name}={value if isinstance(value, str) else format(value, '.2g')}"
                     for name, value in values.items())
     return f"{method.split()[0]}:{text}{FIXED.get(method, '')}"

@@ -1,10 +1,13 @@
 #include "harness/methods.hpp"
 
 #include "baselines/closest_point_methods.hpp"
+#include "baselines/extended_jacobian.hpp"
 #include "baselines/plain_tracking.hpp"
 #include "baselines/planning/ompl_methods.hpp"
 #include "baselines/planning/self_motion_search.hpp"
+#include "baselines/potential_field.hpp"
 #include "baselines/test_point.hpp"
+#include "baselines/weighted_least_norm.hpp"
 #include "bqsa/bqsa_methods.hpp"
 
 namespace bqsa::harness {
@@ -20,6 +23,9 @@ const std::vector<MethodEntry>& methods() {
       baselines::test_point_method(),
       baselines::maciejewski_klein_method(),
       baselines::fcl_gp_method(),
+      baselines::potential_field_method(),
+      baselines::weighted_least_norm_method(),
+      baselines::extended_jacobian_method(),
       baselines::self_motion_search_method(),
       baselines::ompl_method(),
       baselines::ompl_joint_method(),
