@@ -145,6 +145,9 @@ MethodEntry extended_jacobian_method() {
                       "damping near algorithmic singularities, delta"},
                      {"exempt_length", "m", kDefaults.exempt_length, 0, 10,
                       "part of the last link, from the tip, that may be near obstacles"},
+                     choice_parameter("correction", {"descent", "newton"},
+                                      "where the remaining gradient leads: to lower H, or to "
+                                      "whatever stationary point is near"),
                      step_limit_parameter()},
       .make = [](const ParameterValues& values) -> std::unique_ptr<Method> {
         return std::make_unique<ExtendedJacobian>(read(values),

@@ -89,8 +89,13 @@ JointVector WeightedLeastNorm::weights(const JointVector& q, const JointVector& 
   return w;
 }
 
+/// Damped where the arm is nearly singular, not where weights alone make J W^{-1/2} small.
 void WeightedLeastNorm::solve(const TaskVector& x_dot, const JointVector& weights) {
-  solve_hybrid_ik(surroundings_.J_tip(), x_dot, weights, no_clamping_, {}, ik_);
+  const double scale = 1 / std::sqrt(weights.maxCoeff());
+  HybridIkSettings settings;
+  settings.singular_threshold *= scale;
+  settings.lambda_max *= scale;
+  solve_hybrid_ik(surroundings_.J_tip(), x_dot, weights, no_clamping_, settings, ik_);
   ++counters_.linear_solves;
 }
 
