@@ -11,7 +11,11 @@ namespace bqsa::baselines {
 namespace {
 
 // The best of results/gain_sweep (tools/sweep_gains.py).
-constexpr ExtendedJacobianSettings kDefaults{};
+constexpr ExtendedJacobianSettings kDefaults{.influence = 0.093,
+                                             .posture_weight = 58,
+                                             .convergence = 0.083,
+                                             .damping = 0.015,
+                                             .exempt_length = 0.068};
 
 constexpr double kDifference = 1e-6;  ///< half of the difference in joint space [rad]
 
