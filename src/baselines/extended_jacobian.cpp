@@ -17,6 +17,10 @@ constexpr ExtendedJacobianSettings kDefaults{.influence = 0.093,
                                              .damping = 0.015,
                                              .exempt_length = 0.068};
 
+using Transposed =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxJoints, kMaxTaskRows>;
+using TransposedQr = Eigen::ColPivHouseholderQR<Transposed>;
+
 constexpr double kDifference = 1e-6;  ///< half of the difference in joint space [rad]
 
 ExtendedJacobianSettings read(const ParameterValues& values) {
@@ -28,6 +32,13 @@ ExtendedJacobianSettings read(const ParameterValues& values) {
           .correction =
               values.choice("correction") == "descent" ? Correction::kDescent : Correction::kNewton,
           .step_limit = read_step_limit(values)};
+}
+
+TransposedQr decomposed(const Transposed& J_transposed) {
+  TransposedQr qr(J_transposed.rows(), J_transposed.cols());
+  qr.setThreshold(1e-9);
+  qr.compute(J_transposed);
+  return qr;
 }
 
 }  // namespace
@@ -89,45 +100,45 @@ JointVector ExtendedJacobian::hessian_along(const JointVector& z, const TaskVect
 /// Z y, where the arm was last looked at.
 JointVector ExtendedJacobian::self_motion(const StepInput& input, const TaskJacobian& J,
                                           const JointVector& tracking) {
-  using Transposed =
-      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxJoints, kMaxTaskRows>;
-  Eigen::ColPivHouseholderQR<Transposed> qr(J.cols(), J.rows());
-  qr.setThreshold(1e-9);
-  qr.compute(J.transpose());
+  const TransposedQr qr = decomposed(J.transpose());
   ++counters_.linear_solves;
-  const Eigen::Index joints = J.cols(), motions = joints - qr.rank();
+  const Eigen::Index motions = J.cols() - qr.rank();
   if (motions == 0) return no_clamping_;
-  Square Q = qr.householderQ() * Square::Identity(joints, joints);
+  const Square Q = qr.householderQ() * Square::Identity(J.cols(), J.cols());
   const Square Z = Q.rightCols(motions);
 
   const JointVector grad_H = gradient(input.q);
   const TaskVector lambda = qr.solve(grad_H);
-  Square M(motions, motions);
+  Square ZAZ(motions, motions);
   JointVector forcing(motions);  // dG/dt + Zᵀ A J⁺ x_dot
   for (Eigen::Index k = 0; k < motions; ++k) {
     const JointVector along = hessian_along(Z.col(k), lambda, input);
-    M.col(k) = Z.transpose() * along;
+    ZAZ.col(k) = Z.transpose() * along;
     forcing(k) = along.dot(tracking);
   }
   if (obstacles_move_) {
     surroundings_.look(input.tick + 1, input.q);
     forcing += Z.transpose() * (gradient(input.q) - grad_H) / problem_->dt;
   }
+  const double k = settings_.convergence / problem_->dt;
+  return Z * damped_solution(ZAZ, k * (Z.transpose() * grad_H), forcing);
+}
 
-  const Eigen::SelfAdjointEigenSolver<Square> eigen(0.5 * (M + M.transpose()));
+/// y of (ZᵀAZ) y = -k G - forcing, direction by direction.
+JointVector ExtendedJacobian::damped_solution(const Square& ZAZ, const JointVector& kG,
+                                              const JointVector& forcing) {
+  const Eigen::SelfAdjointEigenSolver<Square> eigen(0.5 * (ZAZ + ZAZ.transpose()));
   ++counters_.linear_solves;
   const Square& V = eigen.eigenvectors();
-  const JointVector remaining =
-      settings_.convergence / problem_->dt * (V.transpose() * (Z.transpose() * grad_H));
-  const JointVector forced = V.transpose() * forcing;
-  JointVector y(motions);
-  for (Eigen::Index i = 0; i < motions; ++i) {
+  const JointVector kG_V = V.transpose() * kG, forcing_V = V.transpose() * forcing;
+  JointVector y = JointVector::Zero(kG.size());
+  for (Eigen::Index i = 0; i < y.size(); ++i) {
     const double mu = eigen.eigenvalues()(i);
     const double inverse = mu / (mu * mu + settings_.damping * settings_.damping);
     const bool down = settings_.correction == Correction::kDescent;
-    y(i) = -(down ? std::abs(inverse) : inverse) * remaining(i) - inverse * forced(i);
+    y -= ((down ? std::abs(inverse) : inverse) * kG_V(i) + inverse * forcing_V(i)) * V.col(i);
   }
-  return Z * (V * y);
+  return y;
 }
 
 MethodEntry extended_jacobian_method() {

@@ -53,9 +53,10 @@ double barrier_slope(double clearance, double influence);
 /// so that the tip keeps to its path whatever becomes of y. It does not depend on the basis chosen.
 /// dG/dt is that of moving obstacles.
 ///
-/// Algorithmic singularities are where ZᵀAZ = V diag(mu) Vᵀ loses rank, as where a minimum of H ends
-/// or meets a saddle: y would be infinite. There mu / (mu² + delta²) is taken for 1 / mu, the arm
-/// loses its stationary point, and G leads it to another one. Claims nothing.
+/// Algorithmic singularities are where ZᵀAZ = V diag(mu) Vᵀ loses rank, as where a minimum of H ends in
+/// a saddle: y would be infinite. There mu / (mu² + delta²) is taken for 1 / mu, the arm loses its
+/// stationary point, and G leads it to another one. With Correction::kDescent |mu| stands before G, or
+/// Newton's step would lead up to a maximum or saddle near by. Claims nothing.
 class ExtendedJacobian final : public ReactiveMethod {
  public:
   ExtendedJacobian(const ExtendedJacobianSettings& settings,
@@ -72,6 +73,7 @@ class ExtendedJacobian final : public ReactiveMethod {
   JointVector hessian_along(const JointVector& z, const TaskVector& lambda, const StepInput& input);
   JointVector self_motion(const StepInput& input, const TaskJacobian& J,
                           const JointVector& tracking);
+  JointVector damped_solution(const Square& ZAZ, const JointVector& kG, const JointVector& forcing);
 
   ExtendedJacobianSettings settings_;
   ArmSurroundings surroundings_;

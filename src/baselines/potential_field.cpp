@@ -8,7 +8,8 @@ namespace bqsa::baselines {
 namespace {
 
 // The best of results/gain_sweep (tools/sweep_gains.py).
-constexpr PotentialFieldSettings kDefaults{};
+constexpr PotentialFieldSettings kDefaults{
+    .influence = 0.14, .gain = 8.9e-5, .floor = 0.011, .exempt_length = 0.077, .all_pairs = false};
 
 PotentialFieldSettings read(const ParameterValues& values) {
   PotentialFieldSettings settings{.influence = values.number("influence"),

@@ -11,7 +11,8 @@ namespace bqsa::baselines {
 namespace {
 
 // The best of results/gain_sweep (tools/sweep_gains.py).
-constexpr WeightedLeastNormSettings kDefaults{};
+constexpr WeightedLeastNormSettings kDefaults{
+    .influence = 0.16, .gain = 2.7, .decay = 2.3, .exponent = 0.75, .exempt_length = 0.19};
 
 WeightedLeastNormSettings read(const ParameterValues& values) {
   return {
