@@ -132,8 +132,6 @@ TEST(KdlReference, TracksThePathsOfThePaperAlike) {
     const double allowed = tolerance(problem, rows);
     EXPECT_LT(allowed, 1e-9) << name;
     EXPECT_LT(largest_difference(tracked_by_kdl(problem), rows), allowed) << name;
-    std::printf("%s: %.1e of %.1e rad\n", name, largest_difference(tracked_by_kdl(problem), rows),
-                allowed);
   }
 }
 
