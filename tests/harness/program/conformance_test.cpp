@@ -108,10 +108,12 @@ std::vector<MethodSpec> variants() {
   std::vector<MethodSpec> list;
   for (const MethodEntry& entry : methods()) list.push_back(with_defaults(entry));
   list.push_back(with_defaults(baselines::skeleton_method()));
-  for (const char* text : {"bqsa:release=never", "maciejewski_klein:closest=test_points,n=8,m=60",
-                           "maciejewski_klein:closest=test_points_vectorized,n=8,m=60",
-                           "maciejewski_klein:closest=fcl", "fcl_gp:broadphase=on",
-                           "fcl_gp:solver=libccd_m", "ompl:planner=rrt", "ompl:planner=est"}) {
+  for (const char* text :
+       {"bqsa:release=never", "maciejewski_klein:closest=test_points,n=8,m=60",
+        "maciejewski_klein:closest=test_points_vectorized,n=8,m=60",
+        "maciejewski_klein:closest=fcl", "fcl_gp:broadphase=on", "fcl_gp:solver=libccd_m",
+        "qp:solver=dual_network,network_steps=500", "compact_qp:constraints=equality",
+        "ompl:planner=rrt", "ompl:planner=est"}) {
     list.push_back(parse_method_spec(text, methods()));
   }
   return list;
