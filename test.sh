@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Builds and runs the tests.
 #   ./test.sh         release build, all tests
-#   ./test.sh --full  also: sanitizers, headers on their own, clang-tidy, layout of the code
+#   ./test.sh --full  also: sanitizers, headers on their own, clang-tidy, layout of the code,
+#                     API reference
 set -euo pipefail
 cd "$(dirname "$0")"
 start=$SECONDS
@@ -49,11 +50,14 @@ if $full; then
   build release -DBQSA_CHECK_HEADERS=ON
 
   step "static analysis: clang-tidy"
-  git ls-files 'src/*.cpp' | xargs -P "$jobs" -n 4 clang-tidy -p build/release --quiet \
+  git ls-files 'src/*.cpp' ':!*_test.cpp' | xargs -P "$jobs" -n 4 clang-tidy -p build/release --quiet \
     --warnings-as-errors='*' 2>/dev/null
+
+  step "API reference: doxygen"
+  tools/quiet.sh "$logs/api.log" doxygen docs/Doxyfile
 else
   tools/install_packages.sh program tests
-  step "release: build (--full adds sanitizers, header check, clang-tidy, layout)"
+  step "release: build (--full adds sanitizers, header check, clang-tidy, layout, API reference)"
   build release
 fi
 

@@ -5,16 +5,16 @@ include(CMakePackageConfigHelpers)
 
 set(BQSA_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/bqsa-bench)
 
-install(TARGETS bqsa baselines baselines_fcl baselines_ompl harness
+install(TARGETS bqsa baselines baselines_fcl baselines_ompl mixes harness program
   EXPORT bqsa-bench-targets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/bqsa-bench)
 if(TARGET bqsa-bench)
   install(TARGETS bqsa-bench RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
-install(DIRECTORY src/bqsa src/baselines src/harness
+install(DIRECTORY src/bqsa src/baselines src/mixes src/harness
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-  FILES_MATCHING PATTERN "*.hpp" PATTERN "program" EXCLUDE)
+  FILES_MATCHING PATTERN "*.hpp" PATTERN "skeleton" EXCLUDE)
 
 install(EXPORT bqsa-bench-targets NAMESPACE bqsa:: DESTINATION ${BQSA_PACKAGE_DIR})
 configure_package_config_file(cmake/bqsa-bench-config.cmake.in

@@ -5,6 +5,16 @@
 
 namespace bqsa::baselines {
 
+ParameterDeclaration step_limit_parameter() {
+  return choice_parameter(
+      "step_limit", {"scale", "hold"},
+      "if a joint's step is too large: make as much of the avoidance as fits, or give up");
+}
+
+StepLimit read_step_limit(const ParameterValues& values) {
+  return values.choice("step_limit") == "scale" ? StepLimit::kScale : StepLimit::kHold;
+}
+
 double fitting_part(const Problem& problem, const JointVector& q, const JointVector& tracking,
                     const JointVector& avoidance) {
   double least = 0, most = 1;

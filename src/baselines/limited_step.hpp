@@ -12,6 +12,10 @@ enum class StepLimit {
   kScale,  ///< only as much of the avoidance is made as fits: the tip stays on its path
 };
 
+/// The choice `step_limit` between `scale`, the default, and `hold`.
+ParameterDeclaration step_limit_parameter();
+StepLimit read_step_limit(const ParameterValues& values);
+
 /// Largest k in [0, 1] for which the step tracking + k avoidance [rad] from q keeps the joint limits
 /// and the largest steps; negative if none does.
 double fitting_part(const Problem& problem, const JointVector& q, const JointVector& tracking,

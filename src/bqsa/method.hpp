@@ -130,12 +130,14 @@ class PlanningMethod : public Method {
 
 /// A method as the harness lists it: what it is, what it can, and how to make one.
 struct MethodEntry {
-  std::string name;     ///< [a-z0-9_]+
+  std::string name;     ///< [a-z][a-z0-9_]*
   std::string summary;  ///< one line
   std::string source;   ///< publication
   Capabilities capabilities;
   std::vector<ParameterDeclaration> parameters;
   std::function<std::unique_ptr<Method>(const ParameterValues&)> make;
+  bool out_of_tree = false;  ///< set by the harness: added by a program that is not the stock one
+  std::string external = {};  ///< command line of a method that is a program of its own, else empty
 };
 
 const char* name_of(TickState state);

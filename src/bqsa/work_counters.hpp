@@ -16,6 +16,7 @@ struct WorkCounters {
   std::uint64_t linear_solves = 0;     ///< decompositions of a task matrix
   std::uint64_t iterations = 0;  ///< steps of the method's own search; BQSA: clamping increments
 
+  bool operator==(const WorkCounters&) const = default;
   WorkCounters operator+(const WorkCounters& other) const {
     WorkCounters sum = *this;
     sum.quadratics += other.quadratics;

@@ -10,11 +10,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <optional>
@@ -22,6 +20,8 @@
 #include <system_error>
 
 #include "harness/outcome_message.hpp"
+#include "harness/pipe.hpp"
+#include "harness/process_state.hpp"
 
 namespace bqsa::harness {
 namespace {
@@ -36,46 +36,10 @@ constexpr bool kSanitized = false;
 
 constexpr int kLookEvery = 20;                                 ///< at the resident memory [ms]
 constexpr std::size_t kLargestAnswer = std::size_t{1} << 28U;  ///< [byte]
-constexpr std::size_t kKeptOfStandardError = 1024;             ///< [byte]
 
 [[noreturn]] void refuse(const char* what) {
   throw std::system_error(errno, std::generic_category(), what);
 }
-
-/// A file descriptor that is closed in the end.
-class Descriptor {
- public:
-  Descriptor() = default;
-  explicit Descriptor(int number) : number_(number) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() { close(); }
-
-  void reset(int number) {
-    close();
-    number_ = number;
-  }
-  void close() {
-    if (number_ >= 0) ::close(number_);
-    number_ = -1;
-  }
-  int number() const { return number_; }
-
- private:
-  int number_ = -1;
-};
-
-struct Pipe {
-  Descriptor read_end;
-  Descriptor write_end;
-
-  Pipe() {
-    std::array<int, 2> ends{};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0) refuse("cannot make a pipe");
-    read_end.reset(ends[0]);
-    write_end.reset(ends[1]);
-  }
-};
 
 /// Memory that a forked process shares with this one.
 class SharedProgress {
@@ -97,19 +61,6 @@ class SharedProgress {
   RunProgress* progress_ = nullptr;
 };
 
-/// Pages of a process: 0 in its address space, 1 resident. [byte]
-std::uint64_t memory_of(pid_t process, int kind) {
-  const std::string name = "/proc/" + std::to_string(process) + "/statm";
-  std::FILE* file = std::fopen(name.c_str(), "re");
-  if (file == nullptr) return 0;
-  std::array<unsigned long, 2> pages{};
-  const int read = std::fscanf(file, "%lu %lu", pages.data(), pages.data() + 1);
-  std::fclose(file);
-  if (read != 2) return 0;
-  return std::uint64_t{pages[static_cast<std::size_t>(kind)]} *
-         static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-}
-
 void limit(__rlimit_resource resource, std::uint64_t value) {
   const rlimit both{value, value};
   setrlimit(resource, &both);
@@ -124,18 +75,28 @@ void write_all(int file, const std::string& bytes) {
   }
 }
 
+/// Ends all that the run has started and left behind. Waiting for it adds its processor time to that
+/// of this process.
+void end_descendants() {
+  for (;;) {
+    for (const pid_t process : descendants_of(getpid())) kill(process, SIGKILL);
+    if (waitpid(-1, nullptr, 0) < 0 && errno == ECHILD) return;
+  }
+}
+
 /// What stands before every message, so that its end is known.
 using Size = std::uint64_t;
 
 /// The forked process, from its first to its last instruction.
 [[noreturn]] void run_in_child(pid_t parent, Pipe& answer, Pipe& errors, const RunLimits& limits,
-                               const auto& run) {
+                               bool limits_address_space, const auto& run) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(EXIT_FAILURE);  // it has died before the line above
+  prctl(PR_SET_CHILD_SUBREAPER, 1);              // whatever the run starts stays below this process
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(number, SIG_DFL);
   limit(RLIMIT_CORE, 0);
-  if (!kSanitized) limit(RLIMIT_AS, memory_of(getpid(), 0) + limits.memory_bytes);
+  if (limits_address_space) limit(RLIMIT_AS, address_space_of(getpid()) + limits.memory_bytes);
   answer.read_end.close();
   errors.read_end.close();
   const Descriptor nowhere(open("/dev/null", O_RDWR | O_CLOEXEC));
@@ -144,6 +105,7 @@ using Size = std::uint64_t;
   dup2(errors.write_end.number(), STDERR_FILENO);
 
   const std::string message = outcome_message(run());
+  end_descendants();
   const Size size = message.size();
   write_all(answer.write_end.number(),
             std::string(reinterpret_cast<const char*>(&size), sizeof size) + message);
@@ -157,7 +119,7 @@ struct Observed {
   bool timed_out = false;
   bool out_of_memory = false;
   int status = 0;    ///< of wait4()
-  double cpu_s = 0;  ///< of all threads, by the kernel's count
+  double cpu_s = 0;  ///< of all threads and of what the run started, by the kernel's count
 
   bool answer_is_whole() const {
     Size size = 0;
@@ -167,13 +129,11 @@ struct Observed {
   }
 };
 
-/// Reads what there is, at most once. @return whether more may come
-bool read_some(int file, std::string& text) {
-  std::array<char, 1U << 16U> buffer{};
-  const ssize_t count = read(file, buffer.data(), buffer.size());
-  if (count < 0) return errno == EINTR || errno == EAGAIN;
-  text.append(buffer.data(), static_cast<std::size_t>(count));
-  return count > 0;
+/// Of the process and all that it has started.
+std::uint64_t resident_memory_of_all(pid_t process) {
+  std::uint64_t sum = resident_memory_of(process);
+  for (const pid_t descendant : descendants_of(process)) sum += resident_memory_of(descendant);
+  return sum;
 }
 
 /// Reads and watches until the process has answered, ended or exceeded a limit.
@@ -181,7 +141,7 @@ void watch(pid_t process, int answer, int errors, const RunLimits& limits, Obser
   const Clock::time_point deadline =
       Clock::now() +
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limits.wall_s));
-  const std::uint64_t most_resident = memory_of(getpid(), 1) + limits.memory_bytes;
+  const std::uint64_t most_resident = resident_memory_of(getpid()) + limits.memory_bytes;
   std::array<pollfd, 2> files{pollfd{answer, POLLIN, 0}, pollfd{errors, POLLIN, 0}};
   Clock::time_point next_look = Clock::now();
   while (files[0].fd >= 0 && !observed.answer_is_whole() &&
@@ -193,7 +153,7 @@ void watch(pid_t process, int answer, int errors, const RunLimits& limits, Obser
     }
     if (now >= next_look) {
       next_look = now + std::chrono::milliseconds(kLookEvery);
-      if (memory_of(process, 1) > most_resident) {
+      if (resident_memory_of_all(process) > most_resident) {
         observed.out_of_memory = true;
         return;
       }
@@ -202,9 +162,7 @@ void watch(pid_t process, int answer, int errors, const RunLimits& limits, Obser
     poll(files.data(), files.size(), static_cast<int>(std::min<long>(left + 1, kLookEvery)));
     if (files[1].revents != 0) {
       if (!read_some(files[1].fd, observed.errors)) files[1].fd = -1;
-      if (observed.errors.size() > kKeptOfStandardError) {
-        observed.errors.erase(0, observed.errors.size() - kKeptOfStandardError);
-      }
+      keep_end_of_standard_error(observed.errors);
     }
     if (files[0].revents != 0 && !read_some(files[0].fd, observed.answer)) files[0].fd = -1;
   }
@@ -224,6 +182,7 @@ double seconds(const timeval& time) {
 /// Ends the process, and all that it may have started, and waits for it. One that has ended already
 /// keeps the status with which it did.
 void reap(pid_t process, Observed& observed) {
+  for (const pid_t descendant : descendants_of(process)) kill(descendant, SIGKILL);
   kill(-process, SIGKILL);
   rusage used{};
   while (wait4(process, &observed.status, 0, &used) < 0 && errno == EINTR) {
@@ -231,33 +190,20 @@ void reap(pid_t process, Observed& observed) {
   observed.cpu_s = seconds(used.ru_utime) + seconds(used.ru_stime);
 }
 
-/// The last line that is not empty, of printable characters.
-std::string last_line(std::string text) {
-  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0) {
-    text.pop_back();
-  }
-  text.erase(0, text.find_last_of('\n') + 1);  // npos + 1 is 0
-  std::erase_if(text, [](unsigned char c) { return std::iscntrl(c) != 0; });
-  return text;
-}
-
 std::string cause_of_death(const Observed& observed) {
   std::string cause;
-  if (WIFSIGNALED(observed.status)) {
-    const int number = WTERMSIG(observed.status);
-    cause = "killed by signal " + std::to_string(number) + " (" + strsignal(number) + ")";
-  } else if (observed.answer.size() > kLargestAnswer) {
+  if (observed.answer.size() > kLargestAnswer) {
     cause = "answered with more than " + std::to_string(kLargestAnswer >> 20U) + " MiB";
   } else {
-    cause = "ended its process with exit status " + std::to_string(WEXITSTATUS(observed.status));
+    cause = end_text(observed.status);
   }
   const std::string said = last_line(observed.errors);
   return said.empty() ? cause : cause + ": " + said;
 }
 
 /// What is known of a run that did not answer.
-RunOutcome unanswered(const Problem& problem, const Observed& observed, const RunProgress& progress,
-                      const RunLimits& limits) {
+RunOutcome unanswered(const Problem& problem, const MethodEntry& method, const Observed& observed,
+                      const RunProgress& progress, const RunLimits& limits) {
   RunOutcome outcome;
   outcome.claim = observed.timed_out       ? Claim::kTimedOut
                   : observed.out_of_memory ? Claim::kOutOfMemory
@@ -269,6 +215,12 @@ RunOutcome unanswered(const Problem& problem, const Observed& observed, const Ru
           : cause_of_death(observed);
   // The process may have written nonsense there.
   outcome.tick = std::clamp(progress.tick(), 0, problem.ticks);
+  if (!method.external.empty()) {
+    outcome.message += ", '" + method.external + "' being asked to " +
+                       (outcome.tick > 0            ? "step"
+                        : method.capabilities.plans ? "prepare or plan"
+                                                    : "prepare");
+  }
   const int rows = std::clamp(progress.rows(), 0, std::max(outcome.tick - 1, 0));
   outcome.trajectory.t.push_back(0);
   outcome.trajectory.q.push_back(problem.start);
@@ -281,7 +233,7 @@ RunOutcome unanswered(const Problem& problem, const Observed& observed, const Ru
 }
 
 /// Whether a process of one thread can have used so much: the time to fork and to send the answer is
-/// beyond the run.
+/// beyond the run, and so is that in which an external method ends.
 bool is_unexplained(double cpu_s, double run_s) {
   constexpr double kAround = 0.1;       // [s]
   constexpr double kAroundShare = 0.2;  // of the run
@@ -300,7 +252,7 @@ RunOutcome run_isolated(const Problem& problem, const MethodEntry& method,
   const pid_t process = fork();
   if (process < 0) refuse("cannot start a process for a run");
   if (process == 0) {
-    run_in_child(parent, answer, errors, limits,
+    run_in_child(parent, answer, errors, limits, !kSanitized && method.external.empty(),
                  [&] { return run_method(problem, method, parameters, settings, &*progress); });
   }
   setpgid(process, process);  // whoever comes first
@@ -316,8 +268,9 @@ RunOutcome run_isolated(const Problem& problem, const MethodEntry& method,
   if (observed.answer_is_whole()) {
     outcome = read_outcome_message(std::string_view(observed.answer).substr(sizeof(Size)));
   }
-  if (!outcome) return unanswered(problem, observed, *progress, limits);
+  if (!outcome) return unanswered(problem, method, observed, *progress, limits);
   if (is_unexplained(observed.cpu_s, outcome->times.run_s)) outcome->work_hidden = true;
+  if (!method.external.empty()) outcome->times.cpu_s = observed.cpu_s;
   return *std::move(outcome);
 }
 

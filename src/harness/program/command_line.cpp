@@ -9,13 +9,16 @@
 #include <ostream>
 #include <string_view>
 
+#include "harness/methods.hpp"
+#include "harness/program/external_methods.hpp"
 #include "harness/results/provenance.hpp"
 
 namespace bqsa::harness {
 namespace {
 
 constexpr const char* kFooter =
-    "Exit status: 0 done, 1 a run failed (with --strict), 2 bad input or results not written.";
+    "Exit status: 0 done, 1 a run failed (with --strict) or a law is broken (conform),\n"
+    "2 bad input or results not written.";
 
 constexpr int kMostGenerated = 100'000;  // the index in a name has five digits
 
@@ -44,17 +47,24 @@ std::string command_line_text(int argc, const char* const* argv) {
 
 /// What the options are read into, and the command that was chosen.
 struct CommandLine {
+  std::vector<MethodEntry> methods;    ///< of this program
+  std::vector<std::string> externals;  ///< `NAME=COMMAND`
   RunOptions run;
   GenerateOptions generate;
   StepOptions step;
+  ConformOptions conform;
   ReportOptions report;
   std::filesystem::path scenario_directory;
   std::filesystem::path results_directory;
   std::filesystem::path scenario;
   std::filesystem::path trajectory;
   std::vector<std::filesystem::path> files;
+  std::string method_name;
+  std::filesystem::path tree = ".";
   bool strict = false;
   std::function<Status(const Console&)> command;
+
+  std::vector<MethodEntry> known() const { return with_externals(methods, externals); }
 };
 
 CLI::App* add_command(CLI::App& app, const char* name, const char* description) {
@@ -62,6 +72,14 @@ CLI::App* add_command(CLI::App& app, const char* name, const char* description) 
   command->set_version_flag("--version", app.version());
   command->footer(kFooter);
   return command;
+}
+
+void add_external_option(CLI::App& command, std::vector<std::string>& externals) {
+  command
+      .add_option("--external", externals,
+                  "A program as method, NAME=COMMAND, as \"mine=python3 mine.py\"; repeatable\n"
+                  "(docs/external-methods.md)")
+      ->allow_extra_args(false);
 }
 
 void add_report_options(CLI::App& command, ReportOptions& report) {
@@ -75,7 +93,7 @@ void add_report_options(CLI::App& command, ReportOptions& report) {
 }
 
 void declare(CLI::App& app, CommandLine& line) {
-  app.set_version_flag("--version", "bqsa-bench " + version_text());
+  app.set_version_flag("--version", "bqsa-bench " + version_text(names_out_of_tree(line.methods)));
   app.footer(kFooter);
   app.require_subcommand(1);
 
@@ -83,9 +101,10 @@ void declare(CLI::App& app, CommandLine& line) {
       add_command(app, "list", "List methods with their parameters, families, scenarios");
   list->add_option("--scenarios", line.scenario_directory,
                    "Directory of scenario files [./scenarios]");
+  add_external_option(*list, line.externals);
   list->callback([&line] {
     line.command = [&line](const Console& console) {
-      return list_command(line.scenario_directory, console);
+      return list_command(line.known(), line.scenario_directory, console);
     };
   });
 
@@ -97,6 +116,7 @@ void declare(CLI::App& app, CommandLine& line) {
                   "Method with parameters, M[:key=value,...], as bqsa:increment=1e-3; see list;\n"
                   "repeatable [all methods]")
       ->allow_extra_args(false);
+  add_external_option(*run, line.externals);
   run->add_option("--out,-o", line.run.directory,
                   "Results directory; runs are added to an existing one, and the last of a\n"
                   "scenario and method counts, in the table and as trajectory")
@@ -129,7 +149,9 @@ void declare(CLI::App& app, CommandLine& line) {
                 "Run methods in this process, without limits, for a profiler or debugger");
   add_report_options(*run, line.run.report);
   run->callback([&line] {
-    line.command = [&line](const Console& console) { return run_command(line.run, console); };
+    line.command = [&line](const Console& console) {
+      return run_command(line.known(), line.run, console);
+    };
   });
 
   CLI::App* show = add_command(app, "show", "Print the table of a results directory");
@@ -146,6 +168,7 @@ void declare(CLI::App& app, CommandLine& line) {
   step->add_option("SCENARIO", line.step.scenario, "Scenario file")->required();
   step->add_option("--method,-m", line.step.method, "Method with parameters, as for run")
       ->required();
+  add_external_option(*step, line.externals);
   CLI::Option* slowest = step->add_option(
       "--slowest", line.step.slowest,
       "Results directory: the slowest tick of this scenario and method, undisturbed");
@@ -157,7 +180,31 @@ void declare(CLI::App& app, CommandLine& line) {
   tick->needs(state)->excludes(slowest);
   state->needs(tick)->excludes(slowest);
   step->callback([&line] {
-    line.command = [&line](const Console& console) { return step_command(line.step, console); };
+    line.command = [&line](const Console& console) {
+      return step_command(line.known(), line.step, console);
+    };
+  });
+
+  CLI::App* conform =
+      add_command(app, "conform", "Check what the contract asks of every method, law by law");
+  conform
+      ->add_option("SCENARIO", line.conform.scenarios,
+                   "Scenario files, or directories with files *.yaml")
+      ->required();
+  conform
+      ->add_option("--method,-m", line.conform.methods,
+                   "Method with parameters, as for run; repeatable")
+      ->required()
+      ->allow_extra_args(false);
+  add_external_option(*conform, line.externals);
+  conform
+      ->add_option("--plan-budget", line.conform.plan_budget,
+                   "Wall time that planning methods may use for a plan [s] [10]")
+      ->check(CLI::Range(1e-3, kMostSeconds));
+  conform->callback([&line] {
+    line.command = [&line](const Console& console) {
+      return conform_command(line.known(), line.conform, console);
+    };
   });
 
   CLI::App* judge = add_command(app, "judge", "Judge any trajectory of a scenario");
@@ -197,6 +244,16 @@ void declare(CLI::App& app, CommandLine& line) {
     };
   });
 
+  CLI::App* new_method = add_command(
+      app, "new-method", "Write a method that works, with its test, into the source tree");
+  new_method->add_option("NAME", line.method_name, "Its name, [a-z][a-z0-9_]*")->required();
+  new_method->add_option("--tree", line.tree, "Source tree of the project [.]");
+  new_method->callback([&line] {
+    line.command = [&line](const Console& console) {
+      return new_method_command(line.methods, line.method_name, line.tree, console);
+    };
+  });
+
   CLI::App* validate = add_command(app, "validate", "Check scenario files without running");
   validate->add_option("FILE", line.files, "Scenario files, or directories with files *.yaml")
       ->required();
@@ -209,11 +266,13 @@ void declare(CLI::App& app, CommandLine& line) {
 
 }  // namespace
 
-int run_program(int argc, const char* const* argv, const Console& console) {
+int run_program(int argc, const char* const* argv, const Console& console,
+                const std::vector<MethodEntry>& added) {
   try {
     CLI::App app("Compares inverse-kinematics methods with obstacle avoidance on the same problems",
                  "bqsa-bench");
     CommandLine line;
+    line.methods = add_methods(added);
     line.run.command_line = command_line_text(argc, argv);
     declare(app, line);
     try {

@@ -7,6 +7,8 @@
 namespace bqsa::harness {
 
 /// Does what the command line says and returns the exit status. Lets no exception out.
-int run_program(int argc, const char* const* argv, const Console& console);
+/// @param added  methods besides ours
+int run_program(int argc, const char* const* argv, const Console& console,
+                const std::vector<MethodEntry>& added = {});
 
 }  // namespace bqsa::harness

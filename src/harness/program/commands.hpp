@@ -10,12 +10,14 @@
 #include <string_view>
 #include <vector>
 
+#include "bqsa/method.hpp"
+
 namespace bqsa::harness {
 
 /// Exit status of the program.
 enum Status {
   kOk = 0,
-  kRunFailed = 1,  ///< with --strict: a run was not judged a success
+  kRunFailed = 1,  ///< conform: a law is broken; with --strict: a run was not judged a success
   kBadInput = 2,   ///< input that cannot be used, or results that cannot be written
 };
 
@@ -62,11 +64,13 @@ struct RunOptions {
 /// the others; bad methods, equal scenario names and a directory that cannot be written to do,
 /// before anything runs.
 /// @throws InputError for the latter
-Status run_command(const RunOptions& options, const Console& console);
+Status run_command(const std::vector<MethodEntry>& methods, const RunOptions& options,
+                   const Console& console);
 
 /// Prints the methods, the families and the scenarios `*.yaml` of a directory. An empty directory
 /// name stands for ./scenarios, which may be missing.
-Status list_command(const std::filesystem::path& scenarios, const Console& console);
+Status list_command(const std::vector<MethodEntry>& methods, const std::filesystem::path& scenarios,
+                    const Console& console);
 
 /// Prints table or summary of a results directory; lines that are not records are reported and left
 /// out.
@@ -82,11 +86,24 @@ struct StepOptions {
 };
 
 /// Repeats one tick of a method, freshly prepared, and prints what it did and how long it took.
-Status step_command(const StepOptions& options, const Console& console);
+Status step_command(const std::vector<MethodEntry>& methods, const StepOptions& options,
+                    const Console& console);
 
 /// Prints the judgement of one trajectory file.
 Status judge_command(const std::filesystem::path& scenario, const std::filesystem::path& trajectory,
                      bool strict, const Console& console);
+
+struct ConformOptions {
+  std::vector<std::string> methods;              ///< `M[:key=value,...]`
+  std::vector<std::filesystem::path> scenarios;  ///< files, and directories of files `*.yaml`
+  double plan_budget = 10;                       ///< of planning methods [s]
+};
+
+/// Checks the laws of conformance.hpp and prints a line for each that is kept, or that found nothing to
+/// compare, and one for each finding. A finding gives kRunFailed.
+/// @throws InputError for a bad method or scenario, before anything runs
+Status conform_command(const std::vector<MethodEntry>& methods, const ConformOptions& options,
+                       const Console& console);
 
 struct GenerateOptions {
   std::string family;
@@ -101,6 +118,13 @@ struct GenerateOptions {
 /// `<family>_s<seed>_<index>.witness.csv`. A file that is there stays if it has the same bytes; with
 /// others it is not overwritten, and nothing is written after it.
 Status generate_command(const GenerateOptions& options, const Console& console);
+
+/// Writes a method that works, NAME.hpp and .cpp with a test, into the project's source tree and adds
+/// its line to the list of methods. Where one of the files is there nothing is written.
+/// @throws InputError for a name that is taken or cannot be used, a tree that is none, or a file that
+///   is there or cannot be written
+Status new_method_command(const std::vector<MethodEntry>& methods, const std::string& name,
+                          const std::filesystem::path& tree, const Console& console);
 
 /// Says of each scenario file, those in directories included, whether it can be used.
 /// @throws InputError for a directory that cannot be listed or holds none

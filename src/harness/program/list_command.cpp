@@ -3,8 +3,8 @@
 #include <ostream>
 
 #include "harness/generator/generator.hpp"
-#include "harness/methods.hpp"
 #include "harness/program/commands.hpp"
+#include "harness/program/external_methods.hpp"
 #include "harness/program/scenario_files.hpp"
 #include "harness/scenario/scenario.hpp"
 
@@ -36,8 +36,9 @@ std::string range_of(const ParameterDeclaration& parameter) {
 }
 
 void print_method(const MethodEntry& method, std::ostream& out) {
-  out << fmt::format("  {:<17} {}\n  {:<17} {}\n  {:<17} for {}\n", method.name, method.summary, "",
-                     method.source, "", abilities(method));
+  out << fmt::format("  {:<17} {}\n  {:<17} {}\n  {:<17} for {}{}\n", method.name, method.summary,
+                     "", method.source, "", abilities(method),
+                     method.out_of_tree ? "; out of tree" : "");
   const ParameterValues defaults(method.parameters);
   const auto values = defaults.as_text();
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -49,9 +50,10 @@ void print_method(const MethodEntry& method, std::ostream& out) {
 
 }  // namespace
 
-Status list_command(const std::filesystem::path& scenarios, const Console& console) {
+Status list_command(const std::vector<MethodEntry>& methods, const std::filesystem::path& scenarios,
+                    const Console& console) {
   console.out << "methods (parameter, default, unit, range, meaning)\n";
-  for (const MethodEntry& method : methods()) print_method(method, console.out);
+  for (const MethodEntry& method : methods) print_method(method, console.out);
 
   console.out << "\nfamilies of random scenarios, for generate\n";
   for (const Family& family : families()) {

@@ -9,6 +9,7 @@
 
 #include "harness/methods.hpp"
 #include "harness/program/commands.hpp"
+#include "harness/program/external_methods.hpp"
 #include "harness/program/report.hpp"
 #include "harness/program/scenario_files.hpp"
 #include "harness/results/pair_run.hpp"
@@ -16,27 +17,31 @@
 namespace bqsa::harness {
 namespace {
 
-std::vector<MethodSpec> chosen_methods(const std::vector<std::string>& texts) {
+std::vector<MethodSpec> chosen_methods(const std::vector<MethodEntry>& methods,
+                                       const std::vector<std::string>& texts) {
   std::vector<MethodSpec> chosen;
-  if (texts.empty()) {
-    for (const MethodEntry& entry : methods()) chosen.push_back(with_defaults(entry));
-  }
   std::set<std::string> seen;
+  std::set<std::string> named;
   for (const std::string& text : texts) {
-    chosen.push_back(parse_method_spec(text, methods()));
+    chosen.push_back(parse_method_spec(text, methods));
+    named.insert(chosen.back().entry.name);
     if (!seen.insert(variant_name(chosen.back())).second) {
       throw InputError(fmt::format("method '{}' is given twice", text));
     }
+  }
+  for (const MethodEntry& entry : methods) {
+    const bool takes_part = texts.empty() || !entry.external.empty();
+    if (takes_part && !named.contains(entry.name)) chosen.push_back(with_defaults(entry));
   }
   return chosen;
 }
 
 /// `, did you mean --method NAME?` where a scenario file that does not exist is a method's name.
-std::string hint_for(const std::filesystem::path& file) {
+std::string hint_for(const std::filesystem::path& file, const std::vector<MethodEntry>& methods) {
   std::error_code unknown;
   if (std::filesystem::exists(file, unknown)) return "";
   try {
-    parse_method_spec(file.string(), methods());
+    parse_method_spec(file.string(), methods);
   } catch (const InputError&) {
     return "";
   }
@@ -45,6 +50,7 @@ std::string hint_for(const std::filesystem::path& file) {
 
 /// The files that can be used; the others are reported.
 std::vector<std::filesystem::path> usable(const std::vector<std::filesystem::path>& files,
+                                          const std::vector<MethodEntry>& methods,
                                           const Console& console) {
   std::vector<std::filesystem::path> good;
   std::map<std::string, std::filesystem::path> by_name;
@@ -53,7 +59,7 @@ std::vector<std::filesystem::path> usable(const std::vector<std::filesystem::pat
     try {
       name = load_scenario(file).problem.name;
     } catch (const InputError& error) {
-      console.error(error.what() + hint_for(file));
+      console.error(error.what() + hint_for(file, methods));
       continue;
     }
     const auto [other, first] = by_name.try_emplace(name, file);
@@ -135,12 +141,14 @@ void Console::error(std::string_view message) const {
   err << "bqsa-bench: error: " << message << std::endl;
 }
 
-Status run_command(const RunOptions& options, const Console& console) {
+Status run_command(const std::vector<MethodEntry>& methods, const RunOptions& options,
+                   const Console& console) {
   if (options.directory.empty()) throw InputError("--out: expected a directory, got nothing");
-  const std::vector<MethodSpec> specs = chosen_methods(options.methods);
-  const Circumstances circumstances = circumstances_of(options);
+  const std::vector<MethodSpec> specs = chosen_methods(methods, options.methods);
+  Circumstances circumstances = circumstances_of(options);
+  circumstances.out_of_tree = names_out_of_tree(methods);
   const std::vector<std::filesystem::path> named = with_directories_opened(options.scenarios);
-  const std::vector<std::filesystem::path> files = usable(named, console);
+  const std::vector<std::filesystem::path> files = usable(named, methods, console);
   const std::size_t refused = named.size() - files.size();
   const auto count_refused = [&] {
     if (refused == 0) return;

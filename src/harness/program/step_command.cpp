@@ -6,8 +6,8 @@
 #include <numbers>
 #include <ostream>
 
-#include "harness/methods.hpp"
 #include "harness/program/commands.hpp"
+#include "harness/program/external_methods.hpp"
 #include "harness/results/result_store.hpp"
 #include "harness/results/run_record.hpp"
 #include "harness/results/table_row.hpp"
@@ -152,8 +152,9 @@ bool same_answer(const StepOutput& a, const StepOutput& b) {
 
 }  // namespace
 
-Status step_command(const StepOptions& options, const Console& console) {
-  const MethodSpec spec = parse_method_spec(options.method, methods());
+Status step_command(const std::vector<MethodEntry>& methods, const StepOptions& options,
+                    const Console& console) {
+  const MethodSpec spec = parse_method_spec(options.method, methods);
   const Scenario scenario = load_scenario(options.scenario);
   const Problem& problem = scenario.problem;
   const std::string why_not = why_not_applicable(spec.entry.capabilities, problem);

@@ -1,7 +1,7 @@
 #include "harness/results/provenance.hpp"
 
 #include <fmt/chrono.h>
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <stdlib.h>
 #include <sys/utsname.h>
 
@@ -75,11 +75,15 @@ MachineState machine_state() {
   return state;
 }
 
-std::string version_text() {
+std::string version_text(const std::vector<std::string>& out_of_tree) {
   const BuildInfo& build = build_info();
   constexpr std::size_t kCommitDigits = 10;
-  return fmt::format("{} (commit {}{})", build.version, build.commit.substr(0, kCommitDigits),
-                     build.dirty ? ", modified" : "");
+  std::string text =
+      fmt::format("{} (commit {}{})", build.version, build.commit.substr(0, kCommitDigits),
+                  build.dirty ? ", modified" : "");
+  if (!out_of_tree.empty())
+    text += fmt::format(", with {} out of tree", fmt::join(out_of_tree, ", "));
+  return text;
 }
 
 std::vector<std::string> reasons_against_times(const BuildInfo& build,

@@ -37,8 +37,9 @@ inline constexpr const char* kNotASuccess = "not judged a success";
 const BuildInfo& build_info();
 MachineState machine_state();
 
-/// `0.1.0 (commit 1a2b3c4d5e, modified)`, as `--version` prints it.
-std::string version_text();
+/// `0.1.0 (commit 1a2b3c4d5e, modified)`, as `--version` prints it; of a program with methods out of
+/// tree `..., with a, b out of tree` follows.
+std::string version_text(const std::vector<std::string>& out_of_tree = {});
 
 /// Why times of this build on this machine are only indicative; empty if they can be published.
 std::vector<std::string> reasons_against_times(const BuildInfo& build, const MachineState& machine);

@@ -149,7 +149,7 @@ Json counters_json(const WorkCounters& counters) {
           {"iterations", counters.iterations}};
 }
 
-Json times_json(const RunTimes& times, bool success, const MachineState& machine) {
+Json times_json(const RunTimes& times, bool success, bool external, const MachineState& machine) {
   std::vector<std::string> against = reasons_against_times(build_info(), machine);
   if (!success) against.insert(against.begin(), kNotASuccess);
   Json worst_q = Json::array();
@@ -157,6 +157,7 @@ Json times_json(const RunTimes& times, bool success, const MachineState& machine
   return {{"valid", success},
           {"publishable", against.empty()},
           {"against", against},
+          {"includes_pipe", external},
           {"construct_s", times.construct_s},
           {"prepare_s", times.prepare_s},
           {"plan_s", times.plan_s},
@@ -174,7 +175,8 @@ Json times_json(const RunTimes& times, bool success, const MachineState& machine
           {"hidden_cpu_s", times.hidden_cpu_s}};
 }
 
-Json provenance_json(const MachineState& machine, const Circumstances& circumstances) {
+Json provenance_json(const MethodEntry& method, const MachineState& machine,
+                     const Circumstances& circumstances) {
   const BuildInfo& build = build_info();
   Json libraries = Json::object();
   for (const auto& [name, version] : build.libraries) libraries[name] = version;
@@ -198,7 +200,9 @@ Json provenance_json(const MachineState& machine, const Circumstances& circumsta
           {"isolated", !circumstances.in_process},
           {"wall_limit_s", circumstances.limits.wall_s},
           {"memory_limit_bytes", circumstances.limits.memory_bytes},
-          {"command_line", circumstances.command_line}};
+          {"command_line", circumstances.command_line},
+          {"out_of_tree", circumstances.out_of_tree},
+          {"external", method.external.empty() ? Json() : Json(method.external)}};
 }
 
 Json disturbance_json(const Disturbance& disturbance) {
@@ -243,9 +247,9 @@ std::string run_record(const Scenario& scenario, const MethodSpec& method,
   record["claim_holds"] = claim_holds(outcome.claim, success);
   record["ticks"] = ticks_json(scenario.problem, outcome);
   record["counters"] = counters_json(outcome.counters);
-  record["times"] = times_json(outcome.times, success, machine);
+  record["times"] = times_json(outcome.times, success, !method.entry.external.empty(), machine);
   record["trajectory"] = trajectory_file.empty() ? Json() : Json(trajectory_file);
-  record["provenance"] = provenance_json(machine, circumstances);
+  record["provenance"] = provenance_json(method.entry, machine, circumstances);
   return one_line(record);
 }
 
@@ -256,7 +260,7 @@ std::string not_applicable_record(const Scenario& scenario, const MethodSpec& me
   record["claimed"] = {{"status", "not applicable"}, {"message", why}};
   record["judged"] = nullptr;
   record["trajectory"] = nullptr;
-  record["provenance"] = provenance_json(machine, circumstances);
+  record["provenance"] = provenance_json(method.entry, machine, circumstances);
   return one_line(record);
 }
 

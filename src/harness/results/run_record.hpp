@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "harness/failure_class.hpp"
 #include "harness/isolated_run.hpp"
@@ -22,6 +23,7 @@ struct Circumstances {
   bool store_trajectories = true;
   RunLimits limits = {};    ///< of each run
   bool in_process = false;  ///< run in this process and without limits, for profiling
+  std::vector<std::string> out_of_tree = {};  ///< methods that were added to the stock program
 };
 
 /// Name of a method as it ran, in records, tables and file names: variant_name(), and what disturbed

@@ -69,6 +69,7 @@ struct Tally {
   int slowest_tick = 0;
   bool slowest_counts = true;  ///< nothing speaks against the time
   bool times_count = true;
+  bool includes_pipe = false;  ///< the times
   double total_s = 0;
 
   void add(const TableRow& row);
@@ -94,6 +95,7 @@ void Tally::add(const TableRow& row) {
     if (!row.disturbance.empty()) ++disturbed_claims_wrong;
   }
   if (std::isfinite(row.run_s)) total_s += row.run_s;
+  includes_pipe = includes_pipe || row.includes_pipe;
   add_slowest(row);
   if (!row.gave_up.empty()) {
     ++gave_up;
@@ -342,13 +344,14 @@ std::string time_table(const Summary& summary) {
     };
     const bool timed = std::isfinite(tally.slowest_s);
     const char* doubt = tally.times_count || tally.step_times.total() == 0 ? "" : "~";
+    const char* pipe = tally.includes_pipe && tally.step_times.total() > 0 ? kPipeMark : "";
     return {count_text(tally.step_times.total()),
-            fmt::format("{}{}", doubt, pooled(0.5)),
+            fmt::format("{}{}{}", pipe, doubt, pooled(0.5)),
             pooled(0.99),
             pooled(0.999),
             figure(tally.slowest_of_successes_s / kMicrosecond),
-            fmt::format("{}{}", tally.slowest_counts ? "" : "~",
-                        figure(tally.slowest_s / kMicrosecond)),
+            fmt::format("{}{}{}", tally.includes_pipe ? kPipeMark : "",
+                        tally.slowest_counts ? "" : "~", figure(tally.slowest_s / kMicrosecond)),
             tally.slowest_scenario,
             timed ? count_text(tally.slowest_tick) : "-",
             figure(tally.total_s)};
@@ -370,11 +373,11 @@ std::string plan_table(const Summary& summary) {
       any = true;
       std::vector<double> plans = tally.plans_s;
       std::sort(plans.begin(), plans.end());
-      table.add_row({fmt::format("  {}", method), count_text(std::ssize(plans)),
-                     fmt::format("{}{}", tally.times_count ? "" : "~",
-                                 figure(median_of(plans) / kMillisecond)),
-                     figure(quantile_of(plans, 0.99) / kMillisecond),
-                     figure(plans.back() / kMillisecond)});
+      table.add_row(
+          {fmt::format("  {}", method), count_text(std::ssize(plans)),
+           fmt::format("{}{}{}", tally.includes_pipe ? kPipeMark : "", tally.times_count ? "" : "~",
+                       figure(median_of(plans) / kMillisecond)),
+           figure(quantile_of(plans, 0.99) / kMillisecond), figure(plans.back() / kMillisecond)});
     }
   }
   return any ? table.text() + '\n' : "";
@@ -455,6 +458,7 @@ std::string origin_notes(const std::vector<TableRow>& rows) {
   for (const std::string& reason : reasons.names()) {
     text += fmt::format("~ times only indicative: {}\n", reason);
   }
+  text += pipe_legend(rows);
   const std::size_t files = count_scenarios(rows);
   if (names.size() < files) {
     text +=

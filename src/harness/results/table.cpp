@@ -63,7 +63,8 @@ std::string degrees(double rad) { return figure(rad * 180.0 / std::numbers::pi);
 std::string millimetres(double m) { return figure(1e3 * m); }
 
 std::string time_cell(const TableRow& row) {
-  const std::string mark = row.against_times.empty() ? "" : "~";
+  const std::string mark =
+      fmt::format("{}{}", row.includes_pipe ? kPipeMark : "", row.against_times.empty() ? "" : "~");
   if (std::isfinite(row.plan_s)) return fmt::format("{}plan {} ms", mark, figure(1e3 * row.plan_s));
   if (!std::isfinite(row.step_median_s)) return "-";
   return fmt::format("{}{:>8} {:>8}", mark, figure(1e6 * row.step_median_s),
@@ -264,6 +265,16 @@ std::string verdict_of(const std::string& failure) {
   return failure;
 }
 
+std::string pipe_legend(const std::vector<TableRow>& rows) {
+  const bool any =
+      std::any_of(rows.begin(), rows.end(), [](const TableRow& row) { return row.includes_pipe; });
+  return any ? fmt::format(
+                   "{} of a program of its own: the time includes the way to it and back, as lines "
+                   "of text\n",
+                   kPipeMark)
+             : "";
+}
+
 std::string_view success_legend() {
   return R"(Success, decided from the joint trajectory: every row present and finite, from the given start; no link in an
 obstacle at or between ticks; largest tip error at ticks within the tolerance; joint limits and velocity limit (default
@@ -302,6 +313,7 @@ std::string render_table(const std::vector<TableRow>& all_rows) {
   text += kMarks;
   text += success_legend();
   text += kLegend;
+  text += pipe_legend(rows);
   text += time_notes(rows);
   for (const TableRow& row : firsts(rows, same_build)) text += "made by " + row.build + '\n';
   return text;

@@ -19,6 +19,12 @@ std::string render_table(const std::vector<TableRow>& rows);
 /// The table's word for a failure of the judge, `collides` for `collision`.
 std::string verdict_of(const std::string& failure);
 
+/// Stands before the times of external methods, which are measured at the harness' end of a pipe.
+inline constexpr const char* kPipeMark = "^";
+
+/// What the mark means, as a line; empty if no row has it.
+std::string pipe_legend(const std::vector<TableRow>& rows);
+
 /// What success means, in lines.
 std::string_view success_legend();
 

@@ -171,6 +171,7 @@ void read_times(const RecordValue& times, TableRow& row) {
   for (const std::string& reason : texts(times["against"])) {
     if (reason != kNotASuccess) row.against_times.push_back(reason);
   }
+  if (times.has("includes_pipe")) row.includes_pipe = times["includes_pipe"].boolean();
   row.slowest_s = times["warm_max_s"].number();
   row.slowest_tick = times["warm_max_tick"].integer();
   if (times.has("warm_max_q_rad")) {

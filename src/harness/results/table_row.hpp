@@ -62,6 +62,7 @@ struct TableRow {
   int increments_max = 0;   ///< likewise, the exact one
 
   /// Of any run.
+  bool includes_pipe = false;  ///< times of an external method: its answers come through a pipe
   std::vector<std::string> against_times;  ///< why its times are only indicative; success apart
   double slowest_s = kNone;  ///< its slowest tick from 2 on, the one that gave up included
   int slowest_tick = 0;

@@ -26,31 +26,6 @@ namespace {
 
 constexpr double kWallLimit = 1.5;  // [s]; most canaries need milliseconds
 
-/// A straight motion of a two-link arm, free of everything but what a test adds.
-Scenario quiet_scenario() {
-  Scenario scenario{.file = "quiet.yaml",
-                    .description = "",
-                    .sha256 = "",
-                    .problem = {"quiet", SerialChain(planar_chain({0.5, 0.5}))}};
-  Problem& problem = scenario.problem;
-  problem.ticks = 20;
-  problem.dt = 0.05;
-  problem.start = Eigen::Vector2d(0, 0.5);
-  problem.obstacles = {{"far", embedded(rotated_ellipse({-2, -2}, {0.1, 0.1}, 0))}};
-  const SerialChain chain = problem.chain;
-  // The first joint turns by 0.6 rad in all, the second keeps still.
-  problem.desired_tip = [chain](double t) -> Eigen::Vector3d {
-    ChainPose pose;
-    chain.forward(Eigen::Vector2d(0.6 * t, 0.5), pose);
-    return pose.tip();
-  };
-  return scenario;
-}
-
-JointVector on_path(const StepInput& input) { return Eigen::Vector2d(0.6 * input.t, 0.5); }
-
-void follow(const StepInput& input, StepOutput& output) { output.q = on_path(input); }
-
 /// Runs a method like `bqsa-bench run` does, and after it an honest one: whatever the first has done,
 /// the second must be judged a success.
 class Canaries : public ::testing::Test {

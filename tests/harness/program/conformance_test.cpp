@@ -1,4 +1,5 @@
-// What the contract asks of every method, whatever it does: one suite over the whole list.
+// What the contract asks of every method, whatever it does: one suite over the whole list, and over
+// what `new-method` writes.
 //
 // The linker lets calls of the chain's kinematics and of the hybrid inverse kinematics pass through
 // here (CMakeLists.txt, --wrap), so that the work counters are compared with calls that were made.
@@ -8,15 +9,16 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
+#include "baselines/skeleton.hpp"
 #include "bqsa/hybrid_ik.hpp"
+#include "harness/conformance.hpp"
 #include "harness/generator/generator.hpp"
 #include "harness/method_spec.hpp"
 #include "harness/methods.hpp"
-#include "harness/runner.hpp"
 #include "harness/scenario/scenario.hpp"
 #include "support/allocation_guard.hpp"
 #include "temporary_directory.hpp"
@@ -77,7 +79,8 @@ void BQSA_NAME(__wrap_, BQSA_HYBRID_IK)(const bqsa::TaskJacobian& J, const bqsa:
 namespace bqsa::harness {
 namespace {
 
-constexpr double kPlenty = 120;  ///< budget of plans that have to be found [s]
+/// Plans have to be found, however loaded the machine is.
+constexpr ConformanceSettings kSettings{.plan_budget_s = 120, .limits = {.wall_s = 600}};
 
 /// A scene of the paper and generated ones: at rest and moving, planar and spatial, with and without
 /// limits. No method has been tuned on them.
@@ -101,18 +104,10 @@ const std::vector<Problem>& problems() {
   return kProblems;
 }
 
-/// A wall stands across the whole path of an arm: there is no way.
-Problem blocked() {
-  Problem problem = problems().front();
-  problem.name = "blocked";
-  const Eigen::Vector3d end = problem.desired_tip(problem.duration());
-  problem.obstacles.push_back({"cap", embedded(rotated_ellipse(end.head<2>(), {0.1, 0.1}, 0))});
-  return problem;
-}
-
 std::vector<MethodSpec> variants() {
   std::vector<MethodSpec> list;
   for (const MethodEntry& entry : methods()) list.push_back(with_defaults(entry));
+  list.push_back(with_defaults(baselines::skeleton_method()));
   for (const char* text :
        {"bqsa:release=never", "maciejewski_klein:closest=test_points,n=8,m=60",
         "maciejewski_klein:closest=test_points_vectorized,n=8,m=60",
@@ -124,115 +119,52 @@ std::vector<MethodSpec> variants() {
   return list;
 }
 
+/// A method's name and parameters as part of a test's name.
+std::string identifier(const MethodSpec& spec) {
+  std::string name = spec.entry.name + "_" + changed_parameters(spec.parameters);
+  for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+  while (name.ends_with('_')) name.pop_back();
+  return name;
+}
+
+using LawAndMethod = std::tuple<Law, MethodSpec>;
+
+class Laws : public ::testing::TestWithParam<LawAndMethod> {};
+
+TEST_P(Laws, Kept) {
+  const auto& [law, spec] = GetParam();
+  const LawCheck check = law.check(spec, problems(), kSettings);
+  for (const Finding& finding : check.findings) {
+    ADD_FAILURE() << finding.where << ": expected " << finding.expected << ", found "
+                  << finding.found;
+  }
+  if (!check.not_asked.empty()) return;
+  const bool holds_on = law.name == "limits" && !spec.entry.capabilities.plans;
+  EXPECT_GT(check.compared, holds_on ? 20 : 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfEveryMethod, Laws,
+                         ::testing::Combine(::testing::ValuesIn(laws()),
+                                            ::testing::ValuesIn(variants())),
+                         [](const ::testing::TestParamInfo<LawAndMethod>& tested) {
+                           return std::get<Law>(tested.param).name + "_" +
+                                  identifier(std::get<MethodSpec>(tested.param));
+                         });
+
+/// What takes a linker's tricks to see.
 class Conformance : public ::testing::TestWithParam<MethodSpec> {
  protected:
   const MethodSpec& spec() const { return GetParam(); }
-  const Capabilities& capabilities() const { return spec().entry.capabilities; }
-
-  std::vector<Problem> applicable() const {
-    std::vector<Problem> list;
-    for (const Problem& problem : problems()) {
-      if (why_not_applicable(capabilities(), problem).empty()) list.push_back(problem);
-    }
-    return list;
-  }
-
-  RunOutcome run(const Problem& problem, std::uint64_t seed = 1, double budget_s = kPlenty) const {
-    return run_method(problem, spec().entry, spec().parameters,
-                      {.seed = seed, .plan_budget_s = budget_s, .disturbance = {}});
-  }
 };
 
-void expect_same(const RunOutcome& a, const RunOutcome& b, const std::string& where) {
-  EXPECT_EQ(a.claim, b.claim) << where;
-  EXPECT_EQ(a.tick, b.tick) << where;
-  EXPECT_EQ(a.trajectory.t, b.trajectory.t) << where;
-  ASSERT_EQ(a.trajectory.q.size(), b.trajectory.q.size()) << where;
-  for (std::size_t k = 0; k < a.trajectory.q.size(); ++k) {
-    ASSERT_EQ(a.trajectory.q[k], b.trajectory.q[k]) << where << ", row " << k;
-  }
-  EXPECT_EQ(a.counters.iterations, b.counters.iterations) << where;
-  EXPECT_EQ(a.counters.quadratics, b.counters.quadratics) << where;
-  EXPECT_EQ(a.counters.point_pairs, b.counters.point_pairs) << where;
-  EXPECT_EQ(a.counters.distance_queries, b.counters.distance_queries) << where;
-  EXPECT_EQ(a.counters.kinematics, b.counters.kinematics) << where;
-}
-
-TEST_P(Conformance, ApplyingOrSayingWhyNot) {
-  EXPECT_FALSE(spec().entry.summary.empty());
-  EXPECT_FALSE(spec().entry.source.empty());
-  EXPECT_FALSE(applicable().empty()) << "applies to nothing";
-  const auto method = spec().entry.make(spec().parameters);
-  EXPECT_EQ(dynamic_cast<PlanningMethod*>(method.get()) != nullptr, capabilities().plans);
-  EXPECT_EQ(dynamic_cast<ReactiveMethod*>(method.get()) != nullptr, !capabilities().plans);
-}
-
-TEST_P(Conformance, SameResultTwiceInOneProcessAndInAnotherOrder) {
-  std::vector<Problem> list = applicable();
-  std::map<std::string, RunOutcome> first;
-  for (const Problem& problem : list) first[problem.name] = run(problem);
-  std::reverse(list.begin(), list.end());
-  for (const Problem& problem : list) {
-    expect_same(run(problem), first[problem.name], problem.name);
-  }
-}
-
-TEST_P(Conformance, InputsUntouchedNothingHiddenNoCrashFiniteRowsAtTheTicks) {
-  for (const Problem& problem : applicable()) {
-    const RunOutcome outcome = run(problem);
-    EXPECT_FALSE(outcome.inputs_changed) << problem.name;
-    EXPECT_FALSE(outcome.work_hidden) << problem.name << ": " << outcome.times.hidden_cpu_s << " s";
-    EXPECT_NE(outcome.claim, Claim::kCrashed) << problem.name << ": " << outcome.message;
-    EXPECT_NE(outcome.claim, Claim::kTimedOut) << problem.name << ": " << outcome.message;
-    EXPECT_NE(outcome.claim, Claim::kOutOfMemory) << problem.name << ": " << outcome.message;
-    const Trajectory& trajectory = outcome.trajectory;
-    ASSERT_EQ(trajectory.t.size(), trajectory.q.size());
-    if (outcome.claim == Claim::kSuccess || outcome.claim == Claim::kNothing) {
-      ASSERT_EQ(trajectory.q.size(), static_cast<std::size_t>(problem.ticks) + 1) << problem.name;
-    }
-    for (std::size_t k = 0; k < trajectory.q.size(); ++k) {
-      ASSERT_NEAR(trajectory.t[k], problem.time(static_cast<int>(k)), 1e-12) << problem.name;
-      ASSERT_EQ(trajectory.q[k].size(), problem.chain.joints()) << problem.name;
-      ASSERT_TRUE(trajectory.q[k].allFinite()) << problem.name << ", row " << k;
-    }
-  }
-}
-
-TEST_P(Conformance, LimitsKeptUnlessDeclaredOtherwise) {
-  if (!capabilities().keeps_limits) return;
-  int steps = 0;
-  for (Problem problem : applicable()) {
-    // Tighter limits than the scenes have: the method must give up rather than exceed them.
-    problem.limits.max_velocity =
-        JointVector::Constant(problem.chain.joints(), 0.6 * problem.max_step(0) / problem.dt);
-    const JointVector room = JointVector::Constant(problem.chain.joints(), 0.35);
-    problem.limits.lower = problem.start - room;
-    problem.limits.upper = problem.start + room;
-    const Trajectory trajectory = run(problem, 1, 0.5).trajectory;
-    for (std::size_t k = 1; k < trajectory.q.size(); ++k, ++steps) {
-      ASSERT_EQ(forbidden_step(problem, trajectory.q[k - 1], trajectory.q[k]), Infeasible::kNot)
-          << problem.name << ", tick " << k;
-    }
-  }
-  EXPECT_TRUE(capabilities().plans || steps > 20) << steps;
-}
-
-TEST_P(Conformance, DeadlineHonoured) {
-  if (!capabilities().plans) return;
-  constexpr double kBudget = 0.2;
-  const RunOutcome outcome = run(blocked(), 1, kBudget);
-  EXPECT_NE(outcome.claim, Claim::kSuccess);
-  EXPECT_NE(outcome.claim, Claim::kTimedOut) << outcome.message;
-}
-
 TEST_P(Conformance, CountersEqualToTheCallsThatWereMade) {
-  for (const Problem& problem : applicable()) {
+  for (const Problem& problem : applicable(spec(), problems())) {
     const auto method = spec().entry.make(spec().parameters);
     method->prepare(problem);
     const WorkCounters before = method->counters();
     g_calls = {};
     if (auto* planner = dynamic_cast<PlanningMethod*>(method.get())) {
-      planner->plan(kPlenty, 1);
+      planner->plan(kSettings.plan_budget_s, 1);
     } else {
       auto& reactive = dynamic_cast<ReactiveMethod&>(*method);
       StepInput input{.q = problem.start};
@@ -262,8 +194,8 @@ bool is_ours(const MethodSpec& spec) {
 }
 
 TEST_P(Conformance, AllocationsOfWarmStepsAreReported) {
-  if (capabilities().plans || !test_support::kCountsAllocations) return;
-  for (const Problem& problem : applicable()) {
+  if (spec().entry.capabilities.plans || !test_support::kCountsAllocations) return;
+  for (const Problem& problem : applicable(spec(), problems())) {
     const auto method = spec().entry.make(spec().parameters);
     method->prepare(problem);
     auto& reactive = dynamic_cast<ReactiveMethod&>(*method);
@@ -296,17 +228,12 @@ TEST_P(Conformance, AllocationsOfWarmStepsAreReported) {
   }
 }
 
-std::string test_name(const ::testing::TestParamInfo<MethodSpec>& info) {
-  std::string name = info.param.entry.name + "_" + changed_parameters(info.param.parameters);
-  for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
-  while (name.ends_with('_')) name.pop_back();
-  return name;
-}
-
-INSTANTIATE_TEST_SUITE_P(OfEveryMethod, Conformance, ::testing::ValuesIn(variants()), test_name);
+INSTANTIATE_TEST_SUITE_P(OfEveryMethod, Conformance, ::testing::ValuesIn(variants()),
+                         [](const auto& tested) { return identifier(tested.param); });
 
 }  // namespace
 
 void PrintTo(const MethodSpec& spec, std::ostream* out) { *out << variant_name(spec); }
+void PrintTo(const Law& law, std::ostream* out) { *out << law.name; }
 
 }  // namespace bqsa::harness

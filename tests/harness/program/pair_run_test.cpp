@@ -74,14 +74,16 @@ std::set<std::string> documented_keys() {
   all.merge(with_prefix("counters.",
                         "quadratics point_pairs distance_queries kinematics jacobians "
                         "linear_solves iterations"));
-  all.merge(with_prefix("times.",
-                        "valid publishable against[] construct_s prepare_s plan_s first_step_s "
-                        "warm_steps warm_median_s warm_p99_s warm_p999_s warm_max_s warm_max_tick "
-                        "warm_max_q_rad[] warm_histogram[][] run_s cpu_s hidden_cpu_s"));
+  all.merge(with_prefix(
+      "times.",
+      "valid publishable against[] includes_pipe construct_s prepare_s plan_s first_step_s "
+      "warm_steps warm_median_s warm_p99_s warm_p999_s warm_max_s warm_max_tick "
+      "warm_max_q_rad[] warm_histogram[][] run_s cpu_s hidden_cpu_s"));
   all.merge(with_prefix("provenance.",
                         "version commit dirty compiler build_type flags assertions sanitizers "
                         "libraries processor cores governor load_average os date seed "
-                        "plan_budget_s isolated wall_limit_s memory_limit_bytes command_line"));
+                        "plan_budget_s isolated wall_limit_s memory_limit_bytes command_line "
+                        "out_of_tree external"));
   return all;
 }
 

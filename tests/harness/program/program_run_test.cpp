@@ -206,6 +206,7 @@ TEST_F(ProgramRun, ARecordNamesTheCallAndTheBuild) {
   EXPECT_EQ(provenance["command_line"],
             "bqsa-bench run " + kPlanar + " --method none --out " + out_);
   EXPECT_THAT(provenance["date"].get<std::string>(), ::testing::MatchesRegex("20[0-9-]+T[0-9:]+Z"));
+  EXPECT_EQ(provenance["out_of_tree"], nlohmann::json::array());
   EXPECT_EQ(provenance["libraries"]["Eigen"].get<std::string>().substr(0, 2), "3.");
   EXPECT_EQ(records().at(0)["scenario"]["sha256"].get<std::string>().size(), 64u);
 }

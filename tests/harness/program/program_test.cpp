@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "harness/conformance.hpp"
 #include "harness/methods.hpp"
 #include "program_runner.hpp"
 
@@ -11,6 +12,7 @@ namespace {
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 class Everywhere : public ::testing::TestWithParam<std::string> {};
@@ -43,9 +45,11 @@ TEST_P(Everywhere, UnknownOptionsAreRefused) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Program, Everywhere,
-                         ::testing::Values("program", "list", "run", "show", "step", "judge",
-                                           "generate", "validate"),
-                         [](const auto& tested) { return tested.param; });
+                         ::testing::Values("program", "list", "run", "show", "step", "conform",
+                                           "judge", "generate", "new-method", "validate"),
+                         [](const auto& tested) {
+                           return tested.param == "new-method" ? "new_method" : tested.param;
+                         });
 
 struct BadCall {
   const char* name;
@@ -129,6 +133,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"StepThatDoesNotApply",
                 {"step", kPuma, "-m", "bqsa_paper", "--tick", "3", "--state", "1"},
                 "bqsa_paper: spatial problems not supported yet"},
+        BadCall{"ConformWithoutMethod", {"conform", kPlanar}, "--method"},
+        BadCall{"ConformOfAnUnknownMethod", {"conform", kPlanar, "-m", "magic"}, "unknown method"},
+        BadCall{"ConformWithoutScenario", {"conform", "-m", "bqsa"}, "SCENARIO"},
         BadCall{"ShowWhatIsNotThere", {"show", "/nonexistent"}, "/nonexistent/runs.jsonl"},
         BadCall{"ListWhatIsNotThere", {"list", "--scenarios", "/nonexistent"}, "/nonexistent"},
         BadCall{"ValidateWhatIsNotThere", {"validate", "/nonexistent.yaml"}, "/nonexistent.yaml"},
@@ -196,6 +203,24 @@ TEST(Program, ValidateTakesDirectories) {
   const ProgramResult nothing = run_bqsa_bench({"validate", empty.path().string()});
   EXPECT_EQ(nothing.status, 2);
   EXPECT_THAT(nothing.err, HasSubstr("expected scenario files *.yaml, found none"));
+}
+
+TEST(Program, ConformSaysALineALaw) {
+  const ProgramResult result = run_bqsa_bench({"conform", kPlanar, kPuma, "-m", "bqsa_paper"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.out, StartsWith("bqsa_paper: applies to 1 of 2 scenarios\n"));
+  for (const Law& law : laws()) {
+    EXPECT_THAT(result.out, ContainsRegex("\n  (passed|not asked) +" + law.name + " "));
+  }
+  EXPECT_THAT(result.out, Not(HasSubstr("BROKEN")));
+}
+
+TEST(Program, ConformEndsWithOneWhereALawIsBroken) {
+  const ProgramResult result = run_bqsa_bench({"conform", kPuma, "-m", "bqsa_paper"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.out,
+              HasSubstr("BROKEN     declaration    capabilities: expected that it applies to "
+                        "a problem at hand, found spatial problems not supported yet\n"));
 }
 
 TEST(Program, OutputThatCannotBeWrittenIsAnError) {

@@ -1,4 +1,4 @@
-#include "baselines/closest_point_methods.hpp"
+#include "baselines/closest/closest_point_methods.hpp"
 
 #include <gtest/gtest.h>
 
@@ -40,13 +40,16 @@ TEST(MaciejewskiKlein, WithFclMovesAsWithTheExactDistance) {
 
 TEST(MaciejewskiKlein, WithTestPointsIsTestPointWhereNothingMovesAndNoStepIsTooLarge) {
   const Problem problem = planar_7r(400);
-  const Settings gains = {{"influence", "0.05"},      {"full_distance", "0.02"},
-                          {"escape_velocity", "0.1"}, {"regularization", "1e-6"},
-                          {"exempt_length", "0.1"},   {"points", "closest"}};
-  const Replay expected = replay(*make(test_point_method()), problem);
+  const Settings gains = {{"influence", "0.05"},
+                          {"full_distance", "0.02"},
+                          {"escape_velocity", "0.1"},
+                          {"regularization", "1e-6"},
+                          {"exempt_length", "0.1"}};
+  const Replay expected = replay(*make(test_point_method(), gains), problem);
   for (const char* closest : {"test_points", "test_points_vectorized"}) {
     Settings settings = gains;
     settings.emplace_back("closest", closest);
+    settings.emplace_back("points", "closest");
     const Replay found = replay(*make(maciejewski_klein_method(), settings), problem);
     EXPECT_LT(largest_difference(found, expected), 1e-9) << closest;
     EXPECT_EQ(found.clamped, expected.clamped) << closest;

@@ -1,4 +1,4 @@
-#include "baselines/closest_point_methods.hpp"
+#include "baselines/closest/closest_point_methods.hpp"
 
 #include "baselines/closest/exact_distance_search.hpp"
 #include "baselines/closest/fcl_distance_search.hpp"
@@ -56,8 +56,7 @@ std::unique_ptr<ClosestPointSearch> chosen_search(const ParameterValues& values)
 /// Settings common to both: what the law and its parameters do not say.
 AvoidanceSettings read(const ParameterValues& values, AvoidanceSettings settings) {
   settings.all_pairs = values.choice("points") == "all";
-  settings.step_limit =
-      values.choice("step_limit") == "scale" ? StepLimit::kScale : StepLimit::kHold;
+  settings.step_limit = read_step_limit(values);
   return read_avoidance(values, settings);
 }
 
@@ -68,9 +67,7 @@ void append(std::vector<ParameterDeclaration> more, std::vector<ParameterDeclara
 std::vector<ParameterDeclaration> common_parameters(const AvoidanceSettings& defaults) {
   std::vector<ParameterDeclaration> declared = avoidance_parameters(defaults, {defaults.law});
   declared.push_back(acting_points_parameter(defaults));
-  declared.push_back(choice_parameter(
-      "step_limit", {"scale", "hold"},
-      "if a joint's step is too large: make as much of the avoidance as fits, or give up"));
+  declared.push_back(step_limit_parameter());
   return declared;
 }
 

@@ -1,0 +1,53 @@
+#include <fmt/core.h>
+
+#include <ostream>
+
+#include "harness/conformance.hpp"
+#include "harness/program/commands.hpp"
+#include "harness/program/scenario_files.hpp"
+#include "harness/scenario/scenario.hpp"
+
+namespace bqsa::harness {
+namespace {
+
+/// Prints what a law made of a method. @return whether it is kept
+bool report(const Law& law, const LawCheck& check, std::ostream& out) {
+  if (!check.not_asked.empty()) {
+    out << fmt::format("  {:<10} {:<14} {}\n", "not asked", law.name, check.not_asked);
+  } else if (check.findings.empty()) {
+    out << fmt::format("  {:<10} {:<14} {} ({} compared)\n",
+                       check.compared > 0 ? "passed" : "no case", law.name, law.demand,
+                       check.compared);
+  }
+  for (const Finding& finding : check.findings) {
+    out << fmt::format("  {:<10} {:<14} {}: expected {}, found {}\n", "BROKEN", finding.law,
+                       finding.where, finding.expected, finding.found);
+  }
+  out << std::flush;
+  return check.findings.empty();
+}
+
+}  // namespace
+
+Status conform_command(const std::vector<MethodEntry>& methods, const ConformOptions& options,
+                       const Console& console) {
+  std::vector<MethodSpec> specs;
+  for (const std::string& text : options.methods) specs.push_back(parse_method_spec(text, methods));
+  std::vector<Problem> problems;
+  for (const std::filesystem::path& file : with_directories_opened(options.scenarios)) {
+    problems.push_back(load_scenario(file).problem);
+  }
+  const ConformanceSettings settings{.plan_budget_s = options.plan_budget, .limits = {}};
+  bool kept = true;
+  for (std::size_t i = 0; i < specs.size(); ++i) {
+    const MethodSpec& spec = specs[i];
+    console.out << fmt::format("{}: applies to {} of {} scenarios\n", options.methods[i],
+                               applicable(spec, problems).size(), problems.size());
+    for (const Law& law : laws()) {
+      kept = report(law, law.check(spec, problems, settings), console.out) && kept;
+    }
+  }
+  return kept ? kOk : kRunFailed;
+}
+
+}  // namespace bqsa::harness

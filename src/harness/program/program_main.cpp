@@ -1,0 +1,39 @@
+#include "harness/program/program_main.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <iostream>
+
+#include "harness/program/command_line.hpp"
+
+namespace bqsa::harness {
+namespace {
+
+/// A file opened later takes the lowest free descriptor: where a standard stream is closed, what is
+/// printed would go into the results.
+void fill_closed_standard_streams() {
+  for (int file = STDIN_FILENO; file <= STDERR_FILENO; ++file) {
+    if (fcntl(file, F_GETFD) < 0 && open("/dev/null", O_RDWR) != file) _exit(kBadInput);
+  }
+}
+
+}  // namespace
+
+int program_main(int argc, const char* const* argv, const std::vector<MethodEntry>& added) {
+  fill_closed_standard_streams();
+  // A reader that goes away (`| head`) must not end runs that are under way.
+  std::signal(SIGPIPE, SIG_IGN);
+  // Nor must a limit on the size of files: the write fails and is reported.
+  std::signal(SIGXFSZ, SIG_IGN);
+  const Console console{std::cout, std::cerr, isatty(STDERR_FILENO) != 0};
+  const int status = run_program(argc, argv, console, added);
+  errno = 0;
+  if (std::cout.flush() || errno == EPIPE) return status;
+  console.error("cannot write to standard output");
+  return kBadInput;
+}
+
+}  // namespace bqsa::harness
