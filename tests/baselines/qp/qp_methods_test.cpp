@@ -72,8 +72,6 @@ TEST(Qp, IsThePseudoInverseWithoutObstaclesAndDrifts) {
   const Replay driven = replay(*make(compact_qp_method(), {{"drift_gain", "2"}}), problem);
   EXPECT_LT((driven.q.back() - problem.start).norm(), 0.02 * (q - problem.start).norm());
   EXPECT_LT(driven.tip_error, 1e-3);
-  std::printf("drift %g %g\n", (q - problem.start).norm(),
-              (driven.q.back() - problem.start).norm());
 }
 
 double least_distance(const Problem& problem, const JointVector& q) {
@@ -171,7 +169,6 @@ TEST(Qp, MovesAlikeWithTheNetwork) {
   const Replay found = replay(*make(qp_method(), {{"solver", "dual_network"}}), problem);
   EXPECT_LT(largest_difference(expected, found), 1e-2);
   EXPECT_LT(found.tip_error, problem.tolerance);
-  std::printf("network %g\n", largest_difference(expected, found));
 }
 
 /// Wherever the path asks for more than the limits permit, the arm stops and says why.
