@@ -20,11 +20,10 @@ program=build/release/src/harness/program/bqsa-bench
 echo
 # All methods as they are, and the test-point method once more with the gains and the density of points
 # that it needs to pass the PUMA 560 scenes.
-"$program" run scenarios/*.yaml --out "$out" \
-  --method none --method bqsa --method bqsa_paper --method bqsa_projection \
-  --method bqsa_lookahead --method test_point --method maciejewski_klein --method fcl_gp \
-  --method self_motion_search --method ompl --method ompl_joint \
+"$program" run scenarios/*.yaml --out "$out" --quiet
+"$program" run scenarios/*.yaml --out "$out" --quiet \
   --method test_point:law=gradient_projection,n=50,m=2000,influence=0.08,gradient_gain=600
+"$program" show "$out"
 
 seconds=$((SECONDS - start))
 echo

@@ -64,7 +64,7 @@ void ExtendedJacobian::prepare(const Problem& problem) {
 void ExtendedJacobian::step(const StepInput& input, StepOutput& output) {
   output = {};
   surroundings_.look(input.tick, input.q);
-  const TaskJacobian J = surroundings_.J_tip();
+  const TaskJacobian J = surroundings_.tip_jacobian();
   solve_hybrid_ik(J, surroundings_.tip_velocity(input.p_WT_desired), no_weights_, no_clamping_, {},
                   ik_);
   ++counters_.linear_solves;
@@ -90,7 +90,7 @@ JointVector ExtendedJacobian::hessian_along(const JointVector& z, const TaskVect
                                             const StepInput& input) {
   const auto gradient_of_lagrangian = [&](const JointVector& q) -> JointVector {
     surroundings_.look(input.tick, q);
-    return gradient(q) - surroundings_.J_tip().transpose() * lambda;
+    return gradient(q) - surroundings_.tip_jacobian().transpose() * lambda;
   };
   const JointVector ahead = gradient_of_lagrangian(input.q + kDifference * z);
   const JointVector behind = gradient_of_lagrangian(input.q - kDifference * z);

@@ -63,7 +63,7 @@ void NullSpaceAvoidance::step(const StepInput& input, StepOutput& output) {
   surroundings_.look(input.tick, input.q);
 
   // Je⁺ xe: tracking, closed over the tip error.
-  const TaskJacobian& J_tip = surroundings_.J_tip();
+  const TaskJacobian& J_tip = surroundings_.tip_jacobian();
   solve_hybrid_ik(J_tip, surroundings_.tip_velocity(input.p_WT_desired), no_weights_, no_clamping_,
                   {}, ik_);
   ++counters_.linear_solves;

@@ -49,7 +49,7 @@ void PotentialField::prepare(const Problem& problem) {
 void PotentialField::step(const StepInput& input, StepOutput& output) {
   output = {};
   surroundings_.look(input.tick, input.q);
-  const TaskJacobian& J_tip = surroundings_.J_tip();
+  const TaskJacobian& J_tip = surroundings_.tip_jacobian();
   solve_hybrid_ik(J_tip, surroundings_.tip_velocity(input.p_WT_desired), no_weights_, no_clamping_,
                   {}, ik_);
   ++counters_.linear_solves;

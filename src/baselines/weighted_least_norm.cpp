@@ -96,7 +96,7 @@ void WeightedLeastNorm::solve(const TaskVector& x_dot, const JointVector& weight
   HybridIkSettings settings;
   settings.singular_threshold *= scale;
   settings.lambda_max *= scale;
-  solve_hybrid_ik(surroundings_.J_tip(), x_dot, weights, no_clamping_, settings, ik_);
+  solve_hybrid_ik(surroundings_.tip_jacobian(), x_dot, weights, no_clamping_, settings, ik_);
   ++counters_.linear_solves;
 }
 

@@ -57,7 +57,7 @@ class BqsaEscape final : public ReactiveMethod {
  private:
   /// As much of the law's self-motion as the joints' limits leave room for.
   JointVector escape_velocity(const StepInput& input) {
-    const TaskJacobian& J_tip = surroundings_.J_tip();
+    const TaskJacobian& J_tip = surroundings_.tip_jacobian();
     solve_hybrid_ik(J_tip, surroundings_.tip_velocity(input.p_WT_desired), no_weights_, upright_,
                     {}, ik_);
     ++escape_counters_.linear_solves;

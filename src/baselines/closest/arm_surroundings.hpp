@@ -45,7 +45,7 @@ class ArmSurroundings {
   const ChainPose& pose() const { return pose_; }
 
   /// Jacobian of the tip, or of another point of the chain; made once a look.
-  const TaskJacobian& J_tip() { return jacobian(problem_->chain.points() - 1); }
+  const TaskJacobian& tip_jacobian() { return jacobian(problem_->chain.points() - 1); }
   const TaskJacobian& jacobian(int point);
 
   /// x_dot that brings the tip to a point [m] within the tick [m/s].
