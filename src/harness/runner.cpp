@@ -12,6 +12,7 @@
 #include <numeric>
 
 #include "harness/fingerprint.hpp"
+#include "harness/statistics/estimates.hpp"
 
 namespace bqsa::harness {
 namespace {
@@ -324,16 +325,6 @@ RunOutcome run_method(const Problem& problem, const MethodEntry& entry,
   summarize(log, outcome.times);
   summarize(log.increments, outcome.increments);
   return outcome;
-}
-
-double quantile_of(const std::vector<double>& sorted, double share) {
-  const double rank = std::ceil(share * static_cast<double>(sorted.size()));
-  return sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
-}
-
-double median_of(const std::vector<double>& sorted) {
-  const std::size_t half = sorted.size() / 2;
-  return sorted.size() % 2 == 1 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
 }
 
 bool claim_holds(Claim claim, bool judged_success) {

@@ -120,12 +120,4 @@ bool claim_holds(Claim claim, bool judged_success);
 
 const char* name_of(Claim claim);
 
-/// The smallest of these values that at least this share of them does not exceed.
-/// @param sorted  ascending, not empty
-double quantile_of(const std::vector<double>& sorted, double share);
-
-/// The middle value, or the mean of the two in the middle.
-/// @param sorted  ascending, not empty
-double median_of(const std::vector<double>& sorted);
-
 }  // namespace bqsa::harness

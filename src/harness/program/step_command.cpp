@@ -13,6 +13,7 @@
 #include "harness/results/table_row.hpp"
 #include "harness/results/text_table.hpp"
 #include "harness/scenario/scenario.hpp"
+#include "harness/statistics/estimates.hpp"
 #include "harness/text_file.hpp"
 #include "harness/trajectory_csv.hpp"
 

@@ -15,6 +15,7 @@
 #include "harness/results/table.hpp"
 #include "harness/results/text_table.hpp"
 #include "harness/runner.hpp"
+#include "harness/statistics/estimates.hpp"
 
 namespace bqsa::harness {
 namespace {
@@ -497,17 +498,6 @@ std::string failure_class(const TableRow& row) {
   if (row.claim.starts_with(name_of(Claim::kCrashed))) return name_of(Claim::kCrashed);
   if (row.claim == name_of(Claim::kUnsolved)) return kNoPlan;
   return verdict_of(name_of(Failure::kIncomplete));
-}
-
-std::pair<double, double> wilson_interval(int successes, int runs) {
-  if (runs == 0) return {0, 1};
-  constexpr double kZ = 1.959963984540054;  // the normal distribution's quantile of 97.5 %
-  const double n = runs;
-  const double share = successes / n;
-  const double scale = 1 / (1 + kZ * kZ / n);
-  const double middle = scale * (share + kZ * kZ / (2 * n));
-  const double half = scale * kZ * std::sqrt(share * (1 - share) / n + kZ * kZ / (4 * n * n));
-  return {std::max(middle - half, 0.0), std::min(middle + half, 1.0)};
 }
 
 std::string render_summary(const std::vector<TableRow>& all_rows) {

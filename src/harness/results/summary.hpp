@@ -26,7 +26,4 @@ std::string family_of(const std::string& scenario);
 /// early, why its method gave up, `crashed` or `no plan`.
 std::string failure_class(const TableRow& row);
 
-/// Wilson's interval of 95 % for the probability of success.
-std::pair<double, double> wilson_interval(int successes, int runs);
-
 }  // namespace bqsa::harness

@@ -8,22 +8,10 @@
 #include <random>
 #include <vector>
 
-#include "harness/runner.hpp"
+#include "harness/statistics/estimates.hpp"
 
 namespace bqsa::harness {
 namespace {
-
-TEST(Quantile, IsTheSmallestValueThatTheShareDoesNotExceed) {
-  std::vector<double> hundred(100);
-  for (int i = 0; i < 100; ++i) hundred[static_cast<std::size_t>(i)] = i + 1;
-  EXPECT_EQ(quantile_of(hundred, 0.99), 99);
-  EXPECT_EQ(quantile_of(hundred, 0.999), 100);
-  EXPECT_EQ(quantile_of(hundred, 0.5), 50);
-  EXPECT_EQ(quantile_of(hundred, 0), 1);
-  EXPECT_EQ(quantile_of({7}, 0.99), 7);
-  EXPECT_EQ(median_of(hundred), 50.5);
-  EXPECT_EQ(median_of({1, 2, 9}), 2);
-}
 
 TEST(LogHistogram, QuantilesAreThoseOfTheValuesToHalfABin) {
   std::mt19937_64 random(5);

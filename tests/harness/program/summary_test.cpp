@@ -79,19 +79,6 @@ TEST(Family, IsTheNameWithoutSeedAndNumber) {
   EXPECT_EQ(family_of(""), "");
 }
 
-TEST(WilsonInterval, IsTheSetOfSharesThatTheScoreTestKeeps) {
-  // Solutions of (p - k/n)^2 = z^2 p (1 - p) / n, computed apart from this program.
-  const auto near = [](std::pair<double, double> interval, double low, double high) {
-    EXPECT_NEAR(interval.first, low, 1e-9);
-    EXPECT_NEAR(interval.second, high, 1e-9);
-  };
-  near(wilson_interval(8, 10), 0.4901624715366418, 0.9433178485456247);
-  near(wilson_interval(0, 10), 0, 0.2775327998628892);
-  near(wilson_interval(10, 10), 0.7224672001371114, 1);
-  near(wilson_interval(1712, 2000), 0.8399302416150263, 0.8707048207207215);
-  near(wilson_interval(0, 0), 0, 1);
-}
-
 TEST(FailureClass, IsTheVerdictOrElseTheReasonOfGivingUp) {
   EXPECT_EQ(failure_class(failed("a", "m", Failure::kCollision)), "collides");
   EXPECT_EQ(failure_class(gave_up("a", "m", Infeasible::kNoFreeMotion)), "no free motion");
