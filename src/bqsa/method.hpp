@@ -136,7 +136,7 @@ struct MethodEntry {
   Capabilities capabilities;
   std::vector<ParameterDeclaration> parameters;
   std::function<std::unique_ptr<Method>(const ParameterValues&)> make;
-  bool out_of_tree = false;  ///< set by the harness: added by a program that is not the stock one
+  bool out_of_tree = false;   ///< set by the harness: added by a program that is not the stock one
   std::string external = {};  ///< command line of a method that is a program of its own, else empty
 };
 
