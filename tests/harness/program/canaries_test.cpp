@@ -24,7 +24,7 @@
 namespace bqsa::harness {
 namespace {
 
-constexpr double kWallLimit = 1.5;  // [s]; most canaries need milliseconds
+constexpr double kWallLimit = 4;  // [s]; most canaries need milliseconds, on a loaded machine more
 
 /// Runs a method like `bqsa-bench run` does, and after it an honest one: whatever the first has done,
 /// the second must be judged a success.
@@ -281,13 +281,15 @@ TEST_F(Canaries, Number12ReturnsTooFewRows) {
   expect_caught(row, Failure::kIncomplete, /* claim_holds = */ false);
 }
 
-TEST_F(Canaries, WhatAMethodPrintsIsNotInTheResults) {
+TEST_F(Canaries, WhatAMethodPrintsIsNotInTheResultsNorOnTheStandardOutput) {
+  testing::internal::CaptureStdout();
   const TableRow row = run(scripted("noisy", [](const StepInput& input, StepOutput& output) {
     std::printf("{\"schema\": \"bqsa-run/1\"}\n");
     std::fflush(stdout);
     for (int i = 0; i < 10000; ++i) std::fputs("noise ", stderr);
     follow(input, output);
   }));
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
   EXPECT_TRUE(row.success);
 }
 
