@@ -15,6 +15,7 @@ import json
 import math
 import pathlib
 import random
+import shutil
 import statistics
 import subprocess
 
@@ -85,6 +86,15 @@ def specification(entry, setting):
     return f"{entry.split()[0]}:{text}{FIXED.get(entry, '')}"
 
 
+def records_in(directory):
+    with open(directory / "runs.jsonl", encoding="utf-8") as file:
+        return [json.loads(line) for line in file if line.strip()]
+
+
+def is_complete(directory, problems):
+    return (directory / "runs.jsonl").exists() and len(records_in(directory)) == problems
+
+
 def run(program, specs, out):
     """(share solved, median tip error [mm], solved by family) of every setting."""
     answers = []
@@ -93,13 +103,13 @@ def run(program, specs, out):
         for family in FAMILIES:
             method = spec.split(":")[0]
             single = out / f"runs-{method}-{family}" / spec.replace(":", "_").replace(",", "_")
-            if not (single / "runs.jsonl").exists():
+            if not is_complete(single, FAMILIES[family]):
+                shutil.rmtree(single, ignore_errors=True)
                 subprocess.run([program, "run", out / "problems" / family, "--out", single,
                                 "--no-trajectories", "--quiet", "--method", spec],
                                check=True, stdout=subprocess.DEVNULL)
-            with open(single / "runs.jsonl", encoding="utf-8") as file:
-                records = [json.loads(line) for line in file if line.strip()]
-            good = [record["judged"] for record in records if record["judged"]["success"]]
+            judged = [record["judged"] for record in records_in(single)]
+            good = [verdict for verdict in judged if verdict and verdict["success"]]
             solved[family] = len(good)
             errors += [1000 * judged["tip_error_at_ticks"]["max_m"] for judged in good]
         median = statistics.median(errors) if errors else math.inf

@@ -22,6 +22,7 @@
 #include "harness/outcome_message.hpp"
 #include "harness/pipe.hpp"
 #include "harness/process_state.hpp"
+#include "harness/stray_processes.hpp"
 
 namespace bqsa::harness {
 namespace {
@@ -94,7 +95,7 @@ using Size = std::uint64_t;
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(EXIT_FAILURE);  // it has died before the line above
   prctl(PR_SET_CHILD_SUBREAPER, 1);              // whatever the run starts stays below this process
-  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(number, SIG_DFL);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGCHLD}) std::signal(number, SIG_DFL);
   limit(RLIMIT_CORE, 0);
   if (limits_address_space) limit(RLIMIT_AS, address_space_of(getpid()) + limits.memory_bytes);
   answer.read_end.close();
@@ -175,19 +176,15 @@ void wait_for_end(int answer) {
   poll(&file, 1, kLongEnough);
 }
 
-double seconds(const timeval& time) {
-  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-}
-
 /// Ends the process, and all that it may have started, and waits for it. One that has ended already
 /// keeps the status with which it did.
-void reap(pid_t process, Observed& observed) {
+void reap(pid_t process, StrayProcesses& left_behind, Observed& observed) {
   for (const pid_t descendant : descendants_of(process)) kill(descendant, SIGKILL);
   kill(-process, SIGKILL);
   rusage used{};
   while (wait4(process, &observed.status, 0, &used) < 0 && errno == EINTR) {
   }
-  observed.cpu_s = seconds(used.ru_utime) + seconds(used.ru_stime);
+  observed.cpu_s = cpu_seconds_of(used) + left_behind.end();
 }
 
 std::string cause_of_death(const Observed& observed) {
@@ -232,12 +229,12 @@ RunOutcome unanswered(const Problem& problem, const MethodEntry& method, const O
   return outcome;
 }
 
-/// Whether a process of one thread can have used so much: the time to fork and to send the answer is
-/// beyond the run, and so is that in which an external method ends.
-bool is_unexplained(double cpu_s, double run_s) {
-  constexpr double kAround = 0.1;       // [s]
-  constexpr double kAroundShare = 0.2;  // of the run
-  return cpu_s > run_s * (1 + kAroundShare) + kAround;
+/// Whether one thread cannot have used so much.
+/// @param wall_s  from before the fork until all had ended
+bool is_unexplained(double cpu_s, double wall_s) {
+  constexpr double kUnnoticed = 0.1;       // [s]
+  constexpr double kUnnoticedShare = 0.2;  // of the wall time
+  return cpu_s > wall_s * (1 + kUnnoticedShare) + kUnnoticed;
 }
 
 }  // namespace
@@ -248,6 +245,8 @@ RunOutcome run_isolated(const Problem& problem, const MethodEntry& method,
   Pipe answer;
   Pipe errors;
   const SharedProgress progress(problem.ticks);
+  StrayProcesses left_behind;
+  const Clock::time_point start = Clock::now();
   const pid_t parent = getpid();
   const pid_t process = fork();
   if (process < 0) refuse("cannot start a process for a run");
@@ -262,14 +261,15 @@ RunOutcome run_isolated(const Problem& problem, const MethodEntry& method,
   Observed observed;
   watch(process, answer.read_end.number(), errors.read_end.number(), limits, observed);
   if (observed.answer_is_whole()) wait_for_end(answer.read_end.number());
-  reap(process, observed);
+  reap(process, left_behind, observed);
+  const double wall_s = std::chrono::duration<double>(Clock::now() - start).count();
 
   std::optional<RunOutcome> outcome;
   if (observed.answer_is_whole()) {
     outcome = read_outcome_message(std::string_view(observed.answer).substr(sizeof(Size)));
   }
   if (!outcome) return unanswered(problem, method, observed, *progress, limits);
-  if (is_unexplained(observed.cpu_s, outcome->times.run_s)) outcome->work_hidden = true;
+  if (is_unexplained(observed.cpu_s, wall_s)) outcome->work_hidden = true;
   if (!method.external.empty()) outcome->times.cpu_s = observed.cpu_s;
   return *std::move(outcome);
 }

@@ -42,11 +42,21 @@ void add_children_of(pid_t process, std::vector<pid_t>& list) {
 std::uint64_t address_space_of(pid_t process) { return memory_of(process, 0); }
 std::uint64_t resident_memory_of(pid_t process) { return memory_of(process, 1); }
 
-std::vector<pid_t> descendants_of(pid_t process) {
+std::vector<pid_t> children_of(pid_t process) {
   std::vector<pid_t> list;
   add_children_of(process, list);
+  return list;
+}
+
+std::vector<pid_t> descendants_of(pid_t process) {
+  std::vector<pid_t> list = children_of(process);
   for (std::size_t i = 0; i < list.size(); ++i) add_children_of(list[i], list);
   return list;
+}
+
+double cpu_seconds_of(const rusage& used) {
+  return static_cast<double>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
+         1e-6 * static_cast<double>(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
 }
 
 std::string end_text(int status) {

@@ -2,6 +2,7 @@
 /// What the kernel tells of other processes.
 #pragma once
 
+#include <sys/resource.h>
 #include <sys/types.h>
 
 #include <cstdint>
@@ -14,9 +15,15 @@ namespace bqsa::harness {
 std::uint64_t address_space_of(pid_t process);
 std::uint64_t resident_memory_of(pid_t process);
 
+/// The processes that a process has started, and those that it has taken in (PR_SET_CHILD_SUBREAPER).
+std::vector<pid_t> children_of(pid_t process);
+
 /// The children of a process, their children and so on; those that were left by their parent count
 /// where they were taken in (PR_SET_CHILD_SUBREAPER).
 std::vector<pid_t> descendants_of(pid_t process);
+
+/// User and system time [s].
+double cpu_seconds_of(const rusage& used);
 
 /// How a process ended, by its status of wait(): `killed by signal 11 (Segmentation fault)`, `ended
 /// its process with exit status 3`.

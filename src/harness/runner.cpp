@@ -87,6 +87,8 @@ class PairTally {
   std::vector<Cell> cells_;
 };
 
+constexpr int kMostIncrements = 10'000'000;  // of one clamp; those of a tick can be added up
+
 /// Why the answer of a step cannot be used; empty if it can.
 std::string fault_of(const StepOutput& output, const Problem& problem) {
   const int obstacles = static_cast<int>(problem.obstacles.size());
@@ -99,6 +101,9 @@ std::string fault_of(const StepOutput& output, const Problem& problem) {
         clamp.obstacle >= obstacles) {
       return "clamped link " + std::to_string(clamp.link) + " and obstacle " +
              std::to_string(clamp.obstacle) + ", which do not exist";
+    }
+    if (clamp.increments < 0 || clamp.increments > kMostIncrements) {
+      return "returned a clamp of " + std::to_string(clamp.increments) + " increments";
     }
   }
   if (output.state == TickState::kInfeasible) {

@@ -46,9 +46,6 @@ class DualNetwork {
   void solve(const QuadraticProgram& program, QpSolution& solution);
 
  private:
-  using RowMatrix =
-      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxQpRows, kMaxQpRows>;
-
   void connect(const QuadraticProgram& program);
   void respond();
   bool settled() const;

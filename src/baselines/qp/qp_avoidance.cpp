@@ -59,7 +59,7 @@ QpStatus QpAvoidance::solve() {
   }
   const QuadraticProgram& hard = compact ? compact_.reduced() : rows_.program();
   QpStatus status = solve(hard);
-  if (status != QpStatus::kSolved && rows_.escape_count() > 0) {
+  if (status == QpStatus::kInfeasible && rows_.escape_count() > 0) {
     softened_ = hard;
     rows_.soften(softened_);
     status = solve(softened_);

@@ -19,8 +19,13 @@ bool VelocityProgram::assign(const Problem& problem, const JointVector& q,
   program_.lower.resize(rows);
   program_.upper.resize(rows);
 
-  program_.E.topRows(tip_rows) = J_tip;
+  // A row that is nothing but roundings beside the largest, of a stretched arm, demands nothing.
+  constexpr double kNothing = 1e-9;
+  const double largest = J_tip.rowwise().norm().maxCoeff();
   for (int row = 0; row < tip_rows; ++row) {
+    program_.lower(row) = program_.upper(row) = 0;
+    if (J_tip.row(row).norm() <= kNothing * largest) continue;
+    program_.E.row(row) = J_tip.row(row);
     program_.lower(row) = program_.upper(row) = J_tip.row(row).dot(tracking);
   }
   const bool possible = limit_joints(problem, q, tracking, tip_rows);

@@ -12,6 +12,7 @@
 #include "harness/external/requests.hpp"
 #include "harness/input_error.hpp"
 #include "harness/methods.hpp"
+#include "harness/stray_processes.hpp"
 
 namespace bqsa::harness {
 namespace {
@@ -111,6 +112,7 @@ class ExternalPlanner final : public PlanningMethod {
 /// What the program says of itself.
 MethodEntry described(const std::string& command) {
   MethodEntry entry;
+  const StrayProcesses left_behind;
   Program program(command);
   program.ask({.name = "describe", .line = describe_request(), .limit_s = kDescribeLimit},
               [&entry](const std::string& line) { entry = read_describe_answer(line); });

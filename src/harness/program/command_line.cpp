@@ -40,7 +40,7 @@ std::string quoted(std::string_view word) {
 }
 
 std::string command_line_text(int argc, const char* const* argv) {
-  std::string text = "bqsa-bench";
+  std::string text = std::filesystem::path(argv[0]).filename().string();
   for (int i = 1; i < argc; ++i) text += " " + quoted(argv[i]);
   return text;
 }

@@ -39,6 +39,7 @@ void print_method(const MethodEntry& method, std::ostream& out) {
   out << fmt::format("  {:<17} {}\n  {:<17} {}\n  {:<17} for {}{}\n", method.name, method.summary,
                      "", method.source, "", abilities(method),
                      method.out_of_tree ? "; out of tree" : "");
+  if (!method.external.empty()) out << fmt::format("  {:<17} external: {}\n", "", method.external);
   const ParameterValues defaults(method.parameters);
   const auto values = defaults.as_text();
   for (std::size_t i = 0; i < values.size(); ++i) {

@@ -28,6 +28,8 @@ int program_main(int argc, const char* const* argv, const std::vector<MethodEntr
   std::signal(SIGPIPE, SIG_IGN);
   // Nor must a limit on the size of files: the write fails and is reported.
   std::signal(SIGXFSZ, SIG_IGN);
+  // Whoever started this may have left it ignored: then the times of ended processes would be lost.
+  std::signal(SIGCHLD, SIG_DFL);
   const Console console{std::cout, std::cerr, isatty(STDERR_FILENO) != 0};
   const int status = run_program(argc, argv, console, added);
   errno = 0;

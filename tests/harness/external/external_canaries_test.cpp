@@ -293,6 +293,17 @@ TEST_F(ExternalCanaries, WithoutAProcessOfItsOwnARunIsTheSame) {
   EXPECT_GT(apart.times.cpu_s, here.times.cpu_s) << "only there the program's own counts";
 }
 
+TEST(ExternalDescription, LeavesNothingRunning) {
+  const TemporaryDirectory directory;
+  const std::string mark = (directory.path() / "mark").string();
+  // The program describes itself as it should, and leaves another one in a session of its own.
+  external_method("leaves=sh -c \"setsid sleep 1000 > /dev/null 2>&1 & echo \\$! > '" + mark +
+                  "'; exec " + faulty("none", "step") + "\"");
+  const std::vector<pid_t> processes = started(mark);
+  ASSERT_EQ(processes.size(), 1U);
+  EXPECT_FALSE(runs(processes.front()));
+}
+
 TEST(ExternalDescription, WhatCannotBeStartedIsRefused) {
   EXPECT_EQ(
       refusal("x=/no/such/program --fast"),

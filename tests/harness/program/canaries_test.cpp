@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
@@ -301,20 +303,44 @@ TEST_F(Canaries, TheEndOfTheStandardErrorIsInTheMessageOfACrash) {
   EXPECT_EQ(row.claim_detail, "ended its process with exit status 3: the elbow fell off");
 }
 
-TEST_F(Canaries, AProcessLeftBehindIsEnded) {
-  int ends[2];
-  ASSERT_EQ(pipe(ends), 0);
-  run(scripted("forks", [](const StepInput& input, StepOutput& output) {
+/// Whether a run has ended all that its first tick left behind, in a session of its own. What comes after it is
+/// up to the method.
+void expect_ended(const std::function<void(const MethodSpec&)>& run_it,
+                  void (*then)(const StepInput&, StepOutput&)) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(pipe(ends.data()), 0);
+  run_it(scripted("forks", [then](const StepInput& input, StepOutput& output) {
     if (input.tick == 1 && fork() == 0) {
+      setsid();
       std::this_thread::sleep_for(std::chrono::hours(1));
       _exit(0);
     }
-    follow(input, output);
+    then(input, output);
   }));
   close(ends[1]);
-  char byte;
+  char byte = 0;
   EXPECT_EQ(read(ends[0], &byte, 1), 0) << "nobody else has the pipe open any more";
   close(ends[0]);
+}
+
+TEST_F(Canaries, AProcessLeftBehindIsEnded) {
+  expect_ended([this](const MethodSpec& spec) { run(spec); }, follow);
+}
+
+TEST_F(Canaries, AProcessLeftBehindByACrashIsEnded) {
+  expect_ended([this](const MethodSpec& spec) { run(spec); },
+               [](const StepInput& input, StepOutput& output) {
+                 if (input.tick == 2) std::abort();
+                 follow(input, output);
+               });
+}
+
+TEST_F(Canaries, AProcessLeftBehindByAHangIsEnded) {
+  expect_ended([this](const MethodSpec& spec) { run(spec); },
+               [](const StepInput& input, StepOutput& output) {
+                 if (input.tick == 2) std::this_thread::sleep_for(std::chrono::hours(1));
+                 follow(input, output);
+               });
 }
 
 }  // namespace

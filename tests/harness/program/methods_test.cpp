@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+
 #include "harness/results/provenance.hpp"
 #include "test_methods.hpp"
 
@@ -28,11 +31,11 @@ std::string refusal(const std::vector<MethodEntry>& added) {
 TEST(Methods, AreInTheOrderInWhichTablesShowThem) {
   std::vector<std::string> names;
   for (const MethodEntry& entry : methods()) names.push_back(entry.name);
-  ASSERT_GE(names.size(), 11U);
-  names.resize(11);
-  EXPECT_THAT(names, ElementsAre("none", "bqsa", "bqsa_paper", "bqsa_projection", "bqsa_lookahead",
-                                 "test_point", "maciejewski_klein", "fcl_gp", "self_motion_search",
-                                 "ompl", "ompl_joint"));
+  std::erase_if(names, [](const std::string& name) {
+    constexpr std::array kSome{"none", "bqsa", "test_point", "qp", "ompl"};
+    return std::ranges::find(kSome, name) == kSome.end();
+  });
+  EXPECT_THAT(names, ElementsAre("none", "bqsa", "test_point", "qp", "ompl"));
 }
 
 TEST(Methods, AddedByAProgramComeLastAndAreMarked) {
