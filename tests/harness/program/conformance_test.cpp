@@ -139,8 +139,9 @@ TEST_P(Laws, Kept) {
                   << finding.found;
   }
   if (!check.not_asked.empty()) return;
-  const bool holds_on = law.name == "limits" && !spec.entry.capabilities.plans;
-  EXPECT_GT(check.compared, holds_on ? 20 : 0);
+  // With its limits tightened a planner may find no plan; a reactive method goes some of the way.
+  const int least = law.name != "limits" ? 1 : spec.entry.capabilities.plans ? 0 : 21;
+  EXPECT_GE(check.compared, least);
 }
 
 INSTANTIATE_TEST_SUITE_P(OfEveryMethod, Laws,
