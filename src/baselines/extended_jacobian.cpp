@@ -52,8 +52,6 @@ void ExtendedJacobian::prepare(const Problem& problem) {
   problem_ = &problem;
   counters_ = {};
   obstacles_move_ = std::ranges::any_of(problem.obstacles, &Obstacle::moves);
-  no_weights_ = JointVector::Ones(problem.chain.joints());
-  no_clamping_ = JointVector::Zero(problem.chain.joints());
   surroundings_.assign(problem,
                        {.influence = settings_.influence,
                         .exempt_length = settings_.exempt_length,
@@ -65,15 +63,12 @@ void ExtendedJacobian::step(const StepInput& input, StepOutput& output) {
   output = {};
   surroundings_.look(input.tick, input.q);
   const TaskJacobian J = surroundings_.tip_jacobian();
-  solve_hybrid_ik(J, surroundings_.tip_velocity(input.p_WT_desired), no_weights_, no_clamping_, {},
-                  ik_);
-  ++counters_.linear_solves;
+  const JointVector& tracking = surroundings_.track(input.p_WT_desired);
   for (const Escape& escape : surroundings_.escapes()) {
-    const Link& link = problem_->chain.links()[static_cast<std::size_t>(escape.link)];
-    record_clamp({.link = link.number, .obstacle = escape.obstacle}, output);
+    surroundings_.record(escape, output);
   }
-  const JointVector avoidance = self_motion(input, J, ik_.q_dot);
-  make_step(*problem_, input, ik_.q_dot, avoidance, settings_.step_limit, output);
+  const JointVector avoidance = self_motion(input, J, tracking);
+  make_step(*problem_, input, tracking, avoidance, settings_.step_limit, output);
 }
 
 /// grad H at q, where the arm was last looked at.
@@ -103,7 +98,7 @@ JointVector ExtendedJacobian::self_motion(const StepInput& input, const TaskJaco
   const TransposedQr qr = decomposed(J.transpose());
   ++counters_.linear_solves;
   const Eigen::Index motions = J.cols() - qr.rank();
-  if (motions == 0) return no_clamping_;
+  if (motions == 0) return JointVector::Zero(input.q.size());
   const Square Q = qr.householderQ() * Square::Identity(J.cols(), J.cols());
   const Square Z = Q.rightCols(motions);
 

@@ -79,9 +79,6 @@ class ExtendedJacobian final : public ReactiveMethod {
   ArmSurroundings surroundings_;
   const Problem* problem_ = nullptr;
   bool obstacles_move_ = false;
-  JointVector no_weights_;
-  JointVector no_clamping_;
-  HybridIkResult ik_;
 };
 
 /// `extended_jacobian`, on exact closest points. All pairs within influence enter the criterion: with

@@ -48,8 +48,6 @@ JointVector self_motion_away(double clearance, double speed, const JointVector& 
 void NullSpaceAvoidance::prepare(const Problem& problem) {
   problem_ = &problem;
   counters_ = {};
-  no_weights_ = JointVector::Ones(problem.chain.joints());
-  no_clamping_ = JointVector::Zero(problem.chain.joints());
   surroundings_.assign(problem,
                        {.influence = settings_.influence,
                         .exempt_length = settings_.exempt_length,
@@ -62,21 +60,14 @@ void NullSpaceAvoidance::step(const StepInput& input, StepOutput& output) {
   output = {};
   surroundings_.look(input.tick, input.q);
 
-  // Je⁺ xe: tracking, closed over the tip error.
-  const TaskJacobian& J_tip = surroundings_.tip_jacobian();
-  solve_hybrid_ik(J_tip, surroundings_.tip_velocity(input.p_WT_desired), no_weights_, no_clamping_,
-                  {}, ik_);
-  ++counters_.linear_solves;
-  const JointVector& tracking = ik_.q_dot;
-
+  const JointVector& tracking = surroundings_.track(input.p_WT_desired);
   const std::vector<Escape>& escapes = surroundings_.escapes();
-  if (!escapes.empty()) self_motions_.assign(J_tip);
-  JointVector avoidance = no_clamping_;
+  if (!escapes.empty()) self_motions_.assign(surroundings_.tip_jacobian());
+  JointVector avoidance = JointVector::Zero(input.q.size());
   for (const Escape& escape : escapes) {
     avoidance += self_motion_away(escape.clearance, settings_.escape_velocity + escape.approach,
                                   escape.j0, self_motions_.project(escape.j0), tracking, settings_);
-    const Link& link = problem_->chain.links()[static_cast<std::size_t>(escape.link)];
-    record_clamp({.link = link.number, .obstacle = escape.obstacle}, output);
+    surroundings_.record(escape, output);
   }
   make_step(*problem_, input, tracking, avoidance, settings_.step_limit, output);
 }

@@ -75,10 +75,7 @@ class NullSpaceAvoidance final : public ReactiveMethod {
   AvoidanceSettings settings_;
   ArmSurroundings surroundings_;
   const Problem* problem_ = nullptr;
-  JointVector no_weights_;
-  JointVector no_clamping_;
   SelfMotions self_motions_;
-  HybridIkResult ik_;
 };
 
 /// The parameters that these laws have, with the given defaults.

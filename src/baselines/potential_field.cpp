@@ -37,8 +37,6 @@ double repulsive_force(double clearance, const PotentialFieldSettings& settings)
 void PotentialField::prepare(const Problem& problem) {
   problem_ = &problem;
   counters_ = {};
-  no_weights_ = JointVector::Ones(problem.chain.joints());
-  no_clamping_ = JointVector::Zero(problem.chain.joints());
   surroundings_.assign(problem,
                        {.influence = settings_.influence,
                         .exempt_length = settings_.exempt_length,
@@ -49,22 +47,17 @@ void PotentialField::prepare(const Problem& problem) {
 void PotentialField::step(const StepInput& input, StepOutput& output) {
   output = {};
   surroundings_.look(input.tick, input.q);
-  const TaskJacobian& J_tip = surroundings_.tip_jacobian();
-  solve_hybrid_ik(J_tip, surroundings_.tip_velocity(input.p_WT_desired), no_weights_, no_clamping_,
-                  {}, ik_);
-  ++counters_.linear_solves;
-
-  JointVector repulsion = no_clamping_;
+  const JointVector& tracking = surroundings_.track(input.p_WT_desired);
+  JointVector repulsion = JointVector::Zero(input.q.size());
   for (const Escape& escape : surroundings_.escapes()) {
     repulsion += settings_.gain * repulsive_force(escape.clearance, settings_) * escape.j0;
-    const Link& link = problem_->chain.links()[static_cast<std::size_t>(escape.link)];
-    record_clamp({.link = link.number, .obstacle = escape.obstacle}, output);
+    surroundings_.record(escape, output);
   }
   if (settings_.where == RepulsionSpace::kNullSpace && !surroundings_.escapes().empty()) {
-    self_motions_.assign(J_tip);
+    self_motions_.assign(surroundings_.tip_jacobian());
     repulsion = self_motions_.project(repulsion);
   }
-  make_step(*problem_, input, ik_.q_dot, repulsion, settings_.step_limit, output);
+  make_step(*problem_, input, tracking, repulsion, settings_.step_limit, output);
 }
 
 MethodEntry potential_field_method() {

@@ -50,10 +50,7 @@ class PotentialField final : public ReactiveMethod {
   PotentialFieldSettings settings_;
   ArmSurroundings surroundings_;
   const Problem* problem_ = nullptr;
-  JointVector no_weights_;
-  JointVector no_clamping_;
   SelfMotions self_motions_;
-  HybridIkResult ik_;
 };
 
 /// `potential_field`, on exact closest points.

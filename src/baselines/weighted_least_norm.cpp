@@ -65,8 +65,7 @@ void WeightedLeastNorm::step(const StepInput& input, StepOutput& output) {
   }
   solve(x_dot, weights(input.q, motion));
   for (const Escape& escape : surroundings_.escapes()) {
-    const Link& link = problem_->chain.links()[static_cast<std::size_t>(escape.link)];
-    record_clamp({.link = link.number, .obstacle = escape.obstacle}, output);
+    surroundings_.record(escape, output);
   }
   q_before_ = input.q;
   make_step(*problem_, input, ik_.q_dot, no_clamping_, StepLimit::kHold, output);

@@ -35,7 +35,6 @@ class BqsaEscape final : public ReactiveMethod {
     problem_ = &problem;
     counters_ = {};
     escape_counters_ = {};
-    no_weights_ = JointVector::Ones(problem.chain.joints());
     upright_ = JointVector::Zero(problem.chain.joints());
     surroundings_.assign(problem,
                          {.influence = settings_.influence,
@@ -57,18 +56,15 @@ class BqsaEscape final : public ReactiveMethod {
  private:
   /// As much of the law's self-motion as the joints' limits leave room for.
   JointVector escape_velocity(const StepInput& input) {
-    const TaskJacobian& J_tip = surroundings_.tip_jacobian();
-    solve_hybrid_ik(J_tip, surroundings_.tip_velocity(input.p_WT_desired), no_weights_, upright_,
-                    {}, ik_);
-    ++escape_counters_.linear_solves;
-    self_motions_.assign(J_tip);
+    const JointVector& tracking = surroundings_.track(input.p_WT_desired);
+    self_motions_.assign(surroundings_.tip_jacobian());
     JointVector velocity = upright_;
     for (const Escape& escape : surroundings_.escapes()) {
       velocity +=
           self_motion_away(escape.clearance, settings_.escape_velocity + escape.approach, escape.j0,
-                           self_motions_.project(escape.j0), ik_.q_dot, settings_);
+                           self_motions_.project(escape.j0), tracking, settings_);
     }
-    const double part = baselines::fitting_part(*problem_, input.q, problem_->dt * ik_.q_dot,
+    const double part = baselines::fitting_part(*problem_, input.q, problem_->dt * tracking,
                                                 problem_->dt * velocity);
     return std::max(part, 0.0) * velocity;
   }
@@ -78,10 +74,8 @@ class BqsaEscape final : public ReactiveMethod {
   std::unique_ptr<BackwardSearch> search_;
   const Problem* problem_ = nullptr;
   WorkCounters escape_counters_;
-  JointVector no_weights_;
   JointVector upright_;  ///< no leaning [rad/s]
   baselines::SelfMotions self_motions_;
-  HybridIkResult ik_;
 };
 
 }  // namespace

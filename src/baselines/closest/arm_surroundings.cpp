@@ -16,6 +16,8 @@ void ArmSurroundings::assign(const Problem& problem, const SurroundingsSettings&
   problem_ = &problem;
   settings_ = settings;
   counters_ = &counters;
+  no_weights_ = JointVector::Ones(problem.chain.joints());
+  no_clamping_ = JointVector::Zero(problem.chain.joints());
   const std::size_t pairs = problem.chain.links().size() * problem.obstacles.size();
   points_.clear();
   points_.reserve(pairs);
@@ -33,6 +35,17 @@ void ArmSurroundings::look(int tick, const JointVector& q) {
   if (!settings_.all_pairs) keep_closest_of_each_obstacle();
   escapes_.clear();
   for (const ClosestPoint& point : points_) escapes_.push_back(escape(point, tick));
+}
+
+const JointVector& ArmSurroundings::track(const Eigen::Vector3d& p_WT_desired) {
+  solve_hybrid_ik(tip_jacobian(), tip_velocity(p_WT_desired), no_weights_, no_clamping_, {}, ik_);
+  ++counters_->linear_solves;
+  return ik_.q_dot;
+}
+
+void ArmSurroundings::record(const Escape& escape, StepOutput& output) const {
+  const Link& link = problem_->chain.links()[static_cast<std::size_t>(escape.link)];
+  record_clamp({.link = link.number, .obstacle = escape.obstacle}, output);
 }
 
 /// Of points ordered by obstacle.

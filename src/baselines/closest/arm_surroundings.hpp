@@ -10,6 +10,7 @@
 
 #include "baselines/closest/closest_point_search.hpp"
 #include "bqsa/hybrid_ik.hpp"
+#include "bqsa/method.hpp"
 
 namespace bqsa::baselines {
 
@@ -53,8 +54,15 @@ class ArmSurroundings {
     return (p_WT_desired - pose_.tip()).head(problem_->dimension()) / problem_->dt;
   }
 
+  /// Je⁺ xe: joint velocity of plain tracking, the hybrid inverse kinematics with W = I and phi = 0,
+  /// closed over the tip error; kept until the next call [rad/s].
+  const JointVector& track(const Eigen::Vector3d& p_WT_desired);
+
   /// Of obstacles within influence, obstacle by obstacle and from base to tip.
   const std::vector<Escape>& escapes() const { return escapes_; }
+
+  /// Adds a link and its obstacle to those that were moved apart in the tick.
+  void record(const Escape& escape, StepOutput& output) const;
 
  private:
   void keep_closest_of_each_obstacle();
@@ -67,6 +75,9 @@ class ArmSurroundings {
   std::vector<ClosestPoint> points_;
   std::vector<Escape> escapes_;
   ChainPose pose_;
+  JointVector no_weights_;
+  JointVector no_clamping_;
+  HybridIkResult ik_;
   std::array<TaskJacobian, kMaxPoints> J_points_;  // valid where J_known_, since the last look
   std::array<bool, kMaxPoints> J_known_{};
 };

@@ -13,8 +13,6 @@ std::pair<int, int> pair_of(const Escape& escape) { return {escape.link, escape.
 void QpAvoidance::prepare(const Problem& problem) {
   problem_ = &problem;
   counters_ = {};
-  no_weights_ = JointVector::Ones(problem.chain.joints());
-  no_clamping_ = JointVector::Zero(problem.chain.joints());
   network_state_.resize(0);
   network_pairs_.clear();
   network_pairs_.reserve(kMaxEscapeRows);
@@ -29,11 +27,9 @@ void QpAvoidance::prepare(const Problem& problem) {
 void QpAvoidance::step(const StepInput& input, StepOutput& output) {
   output = {};
   surroundings_.look(input.tick, input.q);
-  const TaskJacobian& J_tip = surroundings_.tip_jacobian();
-  solve_hybrid_ik(J_tip, surroundings_.tip_velocity(input.p_WT_desired), no_weights_, no_clamping_,
-                  {}, ik_);
-  ++counters_.linear_solves;
-  if (!rows_.assign(*problem_, input.q, ik_.q_dot, J_tip, surroundings_.escapes())) {
+  tracking_ = surroundings_.track(input.p_WT_desired);
+  if (!rows_.assign(*problem_, input.q, tracking_, surroundings_.tip_jacobian(),
+                    surroundings_.escapes())) {
     return hold(input.q, Infeasible::kJointLimit, 0, -1, output);
   }
   switch (solve()) {
@@ -43,7 +39,7 @@ void QpAvoidance::step(const StepInput& input, StepOutput& output) {
       return hold(input.q, Infeasible::kDiverged, 0, -1, output);
     case QpStatus::kInfeasible: {
       const Infeasible broken =
-          forbidden_step(*problem_, input.q, input.q + problem_->dt * ik_.q_dot);
+          forbidden_step(*problem_, input.q, input.q + problem_->dt * tracking_);
       return hold(input.q, broken == Infeasible::kNot ? Infeasible::kStepTooLarge : broken, 0, -1,
                   output);
     }
@@ -54,7 +50,7 @@ void QpAvoidance::step(const StepInput& input, StepOutput& output) {
 QpStatus QpAvoidance::solve() {
   const bool compact = settings_.solver == QpSolver::kCompact;
   if (compact) {
-    compact_.assign(rows_.program(), static_cast<int>(problem_->dimension()), ik_.q_dot);
+    compact_.assign(rows_.program(), static_cast<int>(problem_->dimension()), tracking_);
     ++counters_.linear_solves;
   }
   const QuadraticProgram& hard = compact ? compact_.reduced() : rows_.program();
@@ -123,8 +119,7 @@ void QpAvoidance::make_step(const StepInput& input, StepOutput& output) const {
   const auto first_row = solution_.u.size() - rows_.escape_count();
   for (int k = 0; k < rows_.escape_count(); ++k) {
     if (std::abs(solution_.u(first_row + k)) <= kActing) continue;
-    const Link& link = problem_->chain.links()[static_cast<std::size_t>(rows_.escape(k).link)];
-    record_clamp({.link = link.number, .obstacle = rows_.escape(k).obstacle}, output);
+    surroundings_.record(rows_.escape(k), output);
   }
 }
 

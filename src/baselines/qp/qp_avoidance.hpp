@@ -57,9 +57,7 @@ class QpAvoidance final : public ReactiveMethod {
   QpAvoidanceSettings settings_;
   ArmSurroundings surroundings_;
   const Problem* problem_ = nullptr;
-  JointVector no_weights_;
-  JointVector no_clamping_;
-  HybridIkResult ik_;
+  JointVector tracking_;  ///< of the tip alone [rad/s]
   VelocityProgram rows_;
   CompactProgram compact_;
   QuadraticProgram softened_;
