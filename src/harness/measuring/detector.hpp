@@ -1,0 +1,56 @@
+/// @file
+/// All the ways to tell which links hit which obstacles, behind one interface, so that they are
+/// measured on the same inputs by the same loop.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "harness/measuring/workload.hpp"
+
+namespace bqsa::harness {
+
+/// A detector with everything prepared that does not depend on the pose, and, as the paper assumes for
+/// both sides, with the positions of end-points and test points and the coefficients of ellipses known.
+class Detection {
+ public:
+  virtual ~Detection() = default;
+
+  /// Writes at hit[j * n + i] whether link i hits obstacle j in this pose, both counted from 0: 1 or 0.
+  /// The only virtual call of a pass over all nk pairs. Does not allocate, libraries excepted.
+  virtual void detect(int pose, std::span<std::uint8_t> hit) = 0;
+};
+
+/// What a detector's answers are worth.
+enum class Accuracy {
+  kExact,         ///< those of the reference, but for touching to within rounding
+  kConservative,  ///< never free where the reference finds a hit
+  kSampled,       ///< misses hits between its test points
+  kPaper,         ///< exact but for links that are vertical, or nearly so
+};
+
+struct Detector {
+  std::string_view name;   ///< as in `--detector`, tables and files: `test_points`
+  std::string_view label;  ///< as in figures: `test points`
+  std::string_view what;   ///< one sentence
+  Accuracy accuracy;
+  bool in_plane;  ///< can be prepared for workloads of dimension 2
+  bool in_space;  ///< and of dimension 3
+
+  /// Multiplications a pair of link and obstacle, counted by the rule of the paper's section 3.4
+  /// (verified by an instrumented scalar); not a number for libraries.
+  double (*multiplications)(const WorkloadSize& size);
+
+  /// The workload must outlive the detection.
+  std::unique_ptr<Detection> (*prepare)(const Workload& workload);
+};
+
+/// All detectors: the forms of BQSA, the test points, the exact distance, FCL and libccd.
+std::span<const Detector> detectors();
+
+/// @throws InputError that lists the names
+const Detector& detector_named(std::string_view name);
+
+}  // namespace bqsa::harness

@@ -1,0 +1,75 @@
+/// @file
+/// Times of detectors (or control steps) over a range of sizes, and what they say: ratios, exponents,
+/// crossovers. The unit of all intervals is the process: within one, blocks of all contestants are
+/// interleaved in random order; between processes, memory layout and machine may differ.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "harness/measuring/workload.hpp"
+#include "harness/statistics/estimates.hpp"
+#include "harness/statistics/fits.hpp"
+
+namespace bqsa::harness {
+
+/// The quantity along a sweep's axis.
+enum class SweepAxis {
+  kPointPairs,  ///< NM, test points of a link times those of an obstacle
+  kPairs,       ///< nk, links times obstacles
+};
+
+/// One contestant's times.
+struct Series {
+  std::string name;  ///< of the detector or method
+
+  /// Of one pass over all nk pairs, or one control step, [size][process]: the median over the
+  /// process's blocks, processor time of the thread [s].
+  std::vector<std::vector<double>> seconds;
+
+  /// The paper's protocol: mean of 100 single passes by the wall clock, in the first process, [size];
+  /// empty if it was not measured [s].
+  std::vector<double> paper_seconds;
+};
+
+struct Sweep {
+  std::string name;  ///< `plane_nm`, `plane_nk`, `space_nm`, `space_nk`, `step_nk`
+  SweepAxis axis;
+  std::vector<WorkloadSize> sizes;
+  std::vector<Series> series;
+
+  /// The quantity of the axis at a size.
+  double at(std::size_t size) const;
+  /// @return null if there is no such series
+  const Series* find(std::string_view name) const;
+};
+
+/// A number with its 95 % interval over processes (Student's t of the processes' own estimates; needs
+/// at least two, else the interval is the whole range).
+struct Estimate {
+  double value;
+  Interval interval;
+};
+
+/// Time of a over time of b at one size: geometric mean over processes of the ratios within each.
+Estimate time_ratio(const Sweep& sweep, std::string_view a, std::string_view b, std::size_t size);
+
+/// The slope of log(time) against log(axis) from the size `from` on.
+Estimate time_exponent(const Sweep& sweep, std::string_view name, std::size_t from = 0);
+
+/// time = intercept + slope x axis, weighted by 1/time², so that small sizes count as much as large.
+struct LinearTime {
+  Estimate intercept;  ///< [s]
+  Estimate slope;      ///< [s per unit of the axis]
+  double r_squared;    ///< of the medians over processes, unweighted
+};
+LinearTime linear_time(const Sweep& sweep, std::string_view name);
+
+/// Where a, growing along the axis, starts to take longer than b, by log-linear interpolation between
+/// sizes. Nothing if in some process it does nowhere; below the first size that size is the upper
+/// bound, and the value 0.
+std::optional<Estimate> crossover(const Sweep& sweep, std::string_view a, std::string_view b);
+
+}  // namespace bqsa::harness
