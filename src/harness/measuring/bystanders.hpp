@@ -39,6 +39,7 @@ class ControlLoop {
   int tick() const { return input_.tick; }           ///< the last one; 0 before the first
   const JointVector& q() const { return input_.q; }  ///< [rad]
   int infeasible() const { return infeasible_; }     ///< ticks in which the method gave up
+  const WorkCounters& counters() const { return method_->counters(); }
 
  private:
   std::vector<Eigen::Vector3d> desired_;  ///< of a period, from tick 0 on, made beforehand [m]

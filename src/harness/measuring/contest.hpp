@@ -24,7 +24,7 @@ using ContestClock = std::function<double()>;
 double thread_cpu_seconds();
 
 struct ContestSettings {
-  int rounds = 15;
+  int rounds = 20;
   double block_s = 2e-4;   ///< aimed at for a block; one repetition that takes longer is a block
   double budget_s = 0.02;  ///< of one contestant: it has fewer blocks where they would take longer,
   int fewest_rounds = 3;   ///< but not fewer than these

@@ -184,6 +184,8 @@ void sweep_steps(int dimension, const SweepSettings& settings, const SweepProgre
 
 std::span<const std::string_view> sweep_names() { return kSweepNames; }
 
+bool is_of_steps(std::string_view sweep_name) { return sweep_name.ends_with("step_nk"); }
+
 SweepSettings quick_sweeps() { return {}; }
 
 SweepSettings full_sweeps() {
@@ -194,14 +196,13 @@ SweepSettings full_sweeps() {
 
 Sweep run_sweep(std::string_view name, const SweepSettings& settings,
                 const SweepProgress& progress) {
-  Sweep sweep{.name = std::string(name), .axis = SweepAxis::kPairs, .sizes = {}, .series = {}};
+  Sweep sweep{.name = std::string(name), .axis = axis_of(name), .sizes = {}, .series = {}};
   if (std::find(kSweepNames.begin(), kSweepNames.end(), name) == kSweepNames.end()) {
     throw InputError(
         fmt::format("sweep: expected one of {}, got '{}'", fmt::join(kSweepNames, ", "), name));
   }
-  if (name.ends_with("_nm")) sweep.axis = SweepAxis::kPointPairs;
   const int dimension = name.starts_with("space") ? 3 : 2;
-  if (name.ends_with("step_nk")) {
+  if (is_of_steps(name)) {
     sweep_steps(dimension, settings, progress, sweep);
   } else {
     sweep_detectors(dimension, settings, progress, sweep);

@@ -19,6 +19,9 @@ namespace bqsa::harness {
 ///   among bystanders, nk from 7 (8) to 7,000 (4,000).
 std::span<const std::string_view> sweep_names();
 
+/// Whether its times are those of control steps, not of passes of a detector.
+bool is_of_steps(std::string_view sweep_name);
+
 struct SweepSettings {
   ContestSettings contest;       ///< at every size
   bool paper_protocol = true;    ///< of detectors, besides

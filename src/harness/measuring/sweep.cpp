@@ -99,6 +99,10 @@ Crossing crossing(const std::vector<double>& x, const std::vector<double>& log_r
 
 }  // namespace
 
+SweepAxis axis_of(std::string_view sweep_name) {
+  return sweep_name.ends_with("_nm") ? SweepAxis::kPointPairs : SweepAxis::kPairs;
+}
+
 double Series::median(std::size_t size) const {
   std::vector<double> times = seconds[size];
   std::sort(times.begin(), times.end());

@@ -21,6 +21,9 @@ enum class SweepAxis {
   kPairs,       ///< nk, links times obstacles
 };
 
+/// That of a sweep by its name: `..._nm` or `..._nk`.
+SweepAxis axis_of(std::string_view sweep_name);
+
 /// One contestant's times.
 struct Series {
   std::string name;  ///< of the detector or method
