@@ -4,6 +4,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -24,6 +25,7 @@ constexpr std::uint64_t kSeed = 1;
 constexpr int kPairs = 27;        // nk, where NM is varied
 constexpr int kPointPairs = 600;  // NM, where nk is varied
 constexpr int kCheckedPairs = 2000;
+constexpr int kCheckedPoses = 8;  // at least
 
 /// Time a pair, in seconds, of iterations over so many pairs.
 benchmark::Counter per_pair(int pairs) {
@@ -73,7 +75,8 @@ bool add(const std::string& sweep, int at, const Detector& detector, const Workl
 bool add_all(const std::string& sweep, int at, const WorkloadSize& size) {
   static std::list<Workload> kept;  // as long as the benchmarks that refer to them
   const Workload& workload = kept.emplace_back(make_workload(size, kSeed));
-  const ReferenceAnswers reference = reference_answers(workload, kCheckedPairs);
+  const ReferenceAnswers reference =
+      reference_answers(workload, std::max(kCheckedPairs, kCheckedPoses * size.pairs()));
   bool kept_promises = true;
   for (const Detector& detector : detectors()) {
     if (!detector.is_for(size.dimension)) continue;

@@ -37,7 +37,7 @@ WorkloadSize workload_size(int dimension, int pairs, int point_pairs);
 /// Of every link of a workload [m].
 inline constexpr double kLinkLength = 0.3;
 
-/// An arm in many poses, so that no branch predictor learns the answers, among obstacles.
+/// An arm in many poses, so that no answer is always the same, among obstacles.
 struct Workload {
   WorkloadSize size;
 
