@@ -122,8 +122,10 @@ void sweep_detectors(int dimension, const SweepSettings& settings, const SweepPr
     const Workload workload = make_workload(size, kWorkloadSeed);
     verify(workload, chosen, settings.verified_pairs);
     std::vector<Passes> passes;
+    passes.reserve(chosen.size());
     for (const Detector* detector : chosen) passes.emplace_back(*detector, workload);
     std::vector<Contestant> contestants;
+    contestants.reserve(chosen.size());
     for (Passes& one : passes) {
       contestants.push_back({one.name(), [&one](int repetitions) { one.make(repetitions); }});
     }
@@ -170,6 +172,7 @@ void sweep_steps(int dimension, const SweepSettings& settings, const SweepProgre
     if (progress) progress(progress_text(sweep, size));
     sweep.sizes.push_back(size);
     std::vector<ControlLoop> loops;
+    loops.reserve(chosen.size());
     for (const MethodEntry* method : chosen) loops.emplace_back(*method, problem);
     std::vector<Contestant> contestants;
     for (std::size_t c = 0; c < chosen.size(); ++c) {
