@@ -1,5 +1,5 @@
 // libccd without FCL around it, with support functions for exactly what links and obstacles are. In
-// millimetres, like FCL.
+// millimetres, like FCL: libccd's tolerance, 1e-4 of them, is absolute too.
 
 #include <ccd/ccd.h>
 
@@ -15,9 +15,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kMillimetres = 1000;
-constexpr unsigned long kMostIterations = 500;
-constexpr double kTolerance =
-    1e-6;  // of the portal's refinement; libccd's default of 1e-4 misses hits
+constexpr unsigned long kMostIterations = 500;  // as FCL sets it
 
 struct Segment {
   Vector3d a, b;  // [mm]
@@ -82,7 +80,6 @@ class CcdDetection final : public Detection {
     ccd_.center1 = segment_center;
     ccd_.center2 = ball_center;
     ccd_.max_iterations = kMostIterations;
-    ccd_.mpr_tolerance = kTolerance;
   }
 
   void detect(int pose, std::span<std::uint8_t> hit) override {

@@ -130,7 +130,8 @@ class PairwiseDetection final : public Detection {
   Query query_;
 };
 
-/// Pairs are asked whose boxes meet, found by FCL's tree of boxes over the obstacles.
+/// Pairs are asked whose boxes meet, found by FCL's tree of boxes over the obstacles. The box of a turned
+/// object is to FCL a cube around its bounding sphere.
 template <typename Query>
 class BroadphaseDetection final : public Detection {
  public:

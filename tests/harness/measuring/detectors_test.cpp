@@ -7,6 +7,7 @@
 #include <set>
 
 #include "harness/input_error.hpp"
+#include "harness/judge/exact_distance.hpp"
 #include "harness/measuring/detector.hpp"
 #include "support/allocation_guard.hpp"
 #include "support/exact_segment_test.hpp"
@@ -122,6 +123,39 @@ TEST_P(Detectors, KeepTheirPromiseAgainst113Bits) {
   }
 }
 
+/// Free links moved towards the obstacle, or just into it, along the shortest way. What moved them is
+/// judged again in 113 bits.
+Workload next_to_touching(int dimension, double gap) {
+  Workload workload = make_workload({.dimension = dimension, .links = 1, .obstacles = 1}, 25);
+  const Ellipsoid& shape = workload.obstacles.front();
+  std::vector<Eigen::Matrix3Xd> moved;
+  for (const Eigen::Matrix3Xd& pose : workload.poses) {
+    const SegmentDistance apart = exact_distance(pose.col(0), pose.col(1), shape);
+    if (apart.distance == 0) continue;
+    moved.push_back(pose.colwise() + (gap - apart.distance) * apart.normal);
+  }
+  workload.poses = moved;
+  return workload;
+}
+
+TEST_P(Detectors, TellHitFromFreeRightNextToTouching) {
+  if (detector_.accuracy == Accuracy::kSampled) return;
+  const double gap = detector_.accuracy == Accuracy::kExact ? 1e-11 : 2e-6;
+  for (const double signed_gap : {gap, -gap}) {
+    const Workload workload = next_to_touching(GetParam().dimension, signed_gap);
+    const std::unique_ptr<Detection> detection = detector_.prepare(workload);
+    int wrong = 0;
+    for (std::size_t pose = 0; pose < workload.poses.size(); ++pose) {
+      const bool hit = signed_gap < 0;
+      ASSERT_EQ(least_level(workload, pose, 0, 0) <= 0, hit);
+      wrong += answers(*detection, workload, pose).front() != hit;
+    }
+    EXPECT_GT(workload.poses.size(), 700u);
+    if (signed_gap > 0 && detector_.accuracy == Accuracy::kPaperConservative) continue;
+    EXPECT_EQ(wrong, 0) << "of " << workload.poses.size() << " with a gap of " << signed_gap;
+  }
+}
+
 TEST_P(Detectors, AnswerTheSameInAnyOrderOfPoses) {
   const Workload workload =
       make_workload({.dimension = GetParam().dimension, .links = 4, .obstacles = 5}, 21);
@@ -160,6 +194,34 @@ TEST(OwnDetectors, DoNotAllocate) {
     ++checked;
   }
   EXPECT_EQ(checked, 14);
+}
+
+/// Lemma 1 as stated, with shadows judged in 113 bits: a hit is what hits in all three planes.
+TEST(Projections, HitWhereAllThreeShadowsDo) {
+  const Workload workload = make_workload({.dimension = 3, .links = 7, .obstacles = 12}, 24);
+  const std::unique_ptr<Detection> detection = detector_named("bqsa_projections").prepare(workload);
+  int of_planes[4] = {};  // pairs that hit in so many planes
+  for (std::size_t pose = 0; pose < workload.poses.size(); ++pose) {
+    const std::vector<std::uint8_t> hit = answers(*detection, workload, pose);
+    for (std::size_t pair = 0; pair < hit.size(); ++pair) {
+      const auto i = static_cast<Eigen::Index>(pair % 7);
+      int planes = 0;
+      bool touching = false;
+      for (int k = 0; k < 3; ++k) {
+        Eigen::Matrix<double, 2, 3> selector;
+        selector << Eigen::RowVector3d::Unit(k), Eigen::RowVector3d::Unit((k + 1) % 3);
+        const double level = least_level(exact_segment_test<2>(
+            shadow(workload.obstacles[pair / 7], selector), selector * workload.poses[pose].col(i),
+            selector * workload.poses[pose].col(i + 1)));
+        planes += level <= 0;
+        touching = touching || std::abs(level) < left_out(Accuracy::kPaperConservative);
+      }
+      if (touching) continue;
+      EXPECT_EQ(hit[pair], planes == 3) << planes;
+      ++of_planes[planes];
+    }
+  }
+  for (const int count : of_planes) EXPECT_GT(count, 100);
 }
 
 /// An upright link through the middle of a disk, and one beside it.
