@@ -2,7 +2,7 @@
 # Builds and runs the tests.
 #   ./test.sh         release build, all tests
 #   ./test.sh --full  also: sanitizers, headers on their own, clang-tidy, layout of the code,
-#                     API reference
+#                     API reference, instruction counts against results/instructions
 set -euo pipefail
 cd "$(dirname "$0")"
 start=$SECONDS
@@ -49,6 +49,12 @@ if $full; then
 
   step "release: build, every header on its own"
   build release -DBQSA_CHECK_HEADERS=ON
+
+  step "instruction guard: test of the gate"
+  tools/instruction_guard.py --self-test
+
+  step "instruction guard: hot paths against the baseline"
+  tools/instruction_guard.py
 
   step "static analysis: clang-tidy"
   git ls-files 'src/*.cpp' ':!*_test.cpp' | xargs -P "$jobs" -n 4 clang-tidy -p build/release --quiet \
