@@ -89,16 +89,8 @@ std::vector<ParameterDeclaration> avoidance_parameters(const AvoidanceSettings& 
     declared.push_back({"gradient_gain", "rad/(s m^2)", defaults.gradient_gain, 0, 1e9,
                         "gain of gradient projection, mu"});
   }
-  declared.push_back({"exempt_length", "m", defaults.exempt_length, 0, 10,
-                      "part of the last link, from the tip, that may be near obstacles"});
+  declared.push_back(exempt_length_parameter(defaults.exempt_length));
   return declared;
-}
-
-ParameterDeclaration acting_points_parameter(const AvoidanceSettings& defaults) {
-  return choice_parameter("points",
-                          defaults.all_pairs ? std::vector<std::string>{"all", "closest"}
-                                             : std::vector<std::string>{"closest", "all"},
-                          "which points act: each obstacle's closest, or all within influence");
 }
 
 AvoidanceSettings read_avoidance(const ParameterValues& values, AvoidanceSettings settings) {

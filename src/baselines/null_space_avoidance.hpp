@@ -82,9 +82,6 @@ class NullSpaceAvoidance final : public ReactiveMethod {
 std::vector<ParameterDeclaration> avoidance_parameters(const AvoidanceSettings& defaults,
                                                        std::initializer_list<AvoidanceLaw> laws);
 
-/// The choice `points` between `closest` and `all`.
-ParameterDeclaration acting_points_parameter(const AvoidanceSettings& defaults);
-
 /// The values of the law's parameters, in settings that are otherwise as given.
 /// @throws ParameterError if full_distance is not below influence
 AvoidanceSettings read_avoidance(const ParameterValues& values, AvoidanceSettings settings);
