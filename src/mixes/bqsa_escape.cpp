@@ -6,6 +6,7 @@
 #include "baselines/closest/exact_distance_search.hpp"
 #include "baselines/limited_step.hpp"
 #include "baselines/null_space_avoidance.hpp"
+#include "baselines/self_motions.hpp"
 #include "bqsa/exact_search.hpp"
 
 namespace bqsa::mixes {
