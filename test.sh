@@ -2,7 +2,7 @@
 # Builds and runs the tests.
 #   ./test.sh         release build, all tests
 #   ./test.sh --full  also: sanitizers, headers on their own, clang-tidy, layout of the code,
-#                     API reference
+#                     API reference, instruction counts against results/instructions
 set -euo pipefail
 cd "$(dirname "$0")"
 start=$SECONDS
@@ -44,11 +44,17 @@ if $full; then
     bqsa-bench harness geometry_test kinematics_test hybrid_ik_test contract_test algorithm_test \
     baselines_test baselines_fcl_test baselines_ompl_test judge_test scenario_test runner_test \
     results_test program_test canaries_test conformance_test mixes_test external_test \
-    external_canaries_test statistics_test
+    external_canaries_test external_program_test kdl_reference_test skeleton_test statistics_test
   ctest --preset sanitize --parallel "$jobs" --progress --exclude-regex '_NOT_BUILT$|^Install'
 
   step "release: build, every header on its own"
   build release -DBQSA_CHECK_HEADERS=ON
+
+  step "instruction guard: test of the gate"
+  tools/instruction_guard.py --self-test
+
+  step "instruction guard: hot paths against the baseline"
+  tools/instruction_guard.py
 
   step "static analysis: clang-tidy"
   git ls-files 'src/*.cpp' ':!*_test.cpp' | xargs -P "$jobs" -n 4 clang-tidy -p build/release --quiet \

@@ -153,8 +153,7 @@ MethodEntry extended_jacobian_method() {
                       "part of the remaining gradient that a tick removes, k dt"},
                      {"damping", "1/rad^2", kDefaults.damping, 1e-12, 1e9,
                       "damping near algorithmic singularities, delta"},
-                     {"exempt_length", "m", kDefaults.exempt_length, 0, 10,
-                      "part of the last link, from the tip, that may be near obstacles"},
+                     exempt_length_parameter(kDefaults.exempt_length),
                      choice_parameter("correction", {"descent", "newton"},
                                       "where the remaining gradient leads: to lower H, or to "
                                       "whatever stationary point is near"),

@@ -1,34 +1,8 @@
 #include "baselines/null_space_avoidance.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace bqsa::baselines {
-
-void SelfMotions::assign(const TaskJacobian& J) {
-  constexpr double kDependent = 1e-9;
-  rank_ = 0;
-  TaskJacobian rest = J;
-  const double largest = J.rowwise().norm().maxCoeff();
-  while (rank_ < J.rows()) {
-    Eigen::Index next;
-    if (rest.rowwise().squaredNorm().maxCoeff(&next) <= std::pow(kDependent * largest, 2)) break;
-    JointVector row = rest.row(next).transpose();
-    row = project(row);
-    row.normalize();
-    rows_[static_cast<std::size_t>(rank_++)] = row;
-    rest -= (rest * row) * row.transpose();
-  }
-}
-
-JointVector SelfMotions::project(const JointVector& v) const {
-  JointVector rest = v;
-  for (int k = 0; k < rank_; ++k) {
-    const JointVector& row = rows_[static_cast<std::size_t>(k)];
-    rest -= row.dot(rest) * row;
-  }
-  return rest;
-}
 
 double influence_gain(double clearance, const AvoidanceSettings& s) {
   return std::clamp((s.influence - clearance) / (s.influence - s.full_distance), 0.0, 1.0);
@@ -89,16 +63,8 @@ std::vector<ParameterDeclaration> avoidance_parameters(const AvoidanceSettings& 
     declared.push_back({"gradient_gain", "rad/(s m^2)", defaults.gradient_gain, 0, 1e9,
                         "gain of gradient projection, mu"});
   }
-  declared.push_back({"exempt_length", "m", defaults.exempt_length, 0, 10,
-                      "part of the last link, from the tip, that may be near obstacles"});
+  declared.push_back(exempt_length_parameter(defaults.exempt_length));
   return declared;
-}
-
-ParameterDeclaration acting_points_parameter(const AvoidanceSettings& defaults) {
-  return choice_parameter("points",
-                          defaults.all_pairs ? std::vector<std::string>{"all", "closest"}
-                                             : std::vector<std::string>{"closest", "all"},
-                          "which points act: each obstacle's closest, or all within influence");
 }
 
 AvoidanceSettings read_avoidance(const ParameterValues& values, AvoidanceSettings settings) {

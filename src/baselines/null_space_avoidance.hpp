@@ -3,7 +3,6 @@
 /// Klein (1985) or by gradient projection. The same for every search.
 #pragma once
 
-#include <array>
 #include <initializer_list>
 #include <memory>
 #include <utility>
@@ -11,7 +10,7 @@
 
 #include "baselines/closest/arm_surroundings.hpp"
 #include "baselines/limited_step.hpp"
-#include "bqsa/hybrid_ik.hpp"
+#include "baselines/self_motions.hpp"
 #include "bqsa/method.hpp"
 
 namespace bqsa::baselines {
@@ -29,20 +28,6 @@ struct AvoidanceSettings {
   bool all_pairs = false;          ///< all pairs within influence act, not each obstacle's closest
   bool obstacle_velocity = false;  ///< a moving obstacle's velocity is added to v_0
   StepLimit step_limit = StepLimit::kHold;
-};
-
-/// Projects joint velocities on the self-motions of a task, P = I - J⁺J.
-class SelfMotions {
- public:
-  /// Orthonormal rows of J, by Gram-Schmidt with the largest remaining row first, done twice. Rows
-  /// that fall below 1e-9 of the largest count as dependent. Does not allocate.
-  void assign(const TaskJacobian& J);
-
-  JointVector project(const JointVector& v) const;
-
- private:
-  int rank_ = 0;
-  std::array<JointVector, kMaxTaskRows> rows_;
 };
 
 /// 0 at the sphere of influence, 1 at d_o and below, linear in between.
@@ -81,9 +66,6 @@ class NullSpaceAvoidance final : public ReactiveMethod {
 /// The parameters that these laws have, with the given defaults.
 std::vector<ParameterDeclaration> avoidance_parameters(const AvoidanceSettings& defaults,
                                                        std::initializer_list<AvoidanceLaw> laws);
-
-/// The choice `points` between `closest` and `all`.
-ParameterDeclaration acting_points_parameter(const AvoidanceSettings& defaults);
 
 /// The values of the law's parameters, in settings that are otherwise as given.
 /// @throws ParameterError if full_distance is not below influence

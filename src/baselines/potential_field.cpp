@@ -16,7 +16,7 @@ PotentialFieldSettings read(const ParameterValues& values) {
                                   .gain = values.number("gain"),
                                   .floor = values.number("floor"),
                                   .exempt_length = values.number("exempt_length"),
-                                  .all_pairs = values.choice("points") == "all",
+                                  .all_pairs = read_all_pairs(values),
                                   .where = values.choice("where") == "task"
                                                ? RepulsionSpace::kTask
                                                : RepulsionSpace::kNullSpace,
@@ -76,9 +76,8 @@ MethodEntry potential_field_method() {
                      {"gain", "rad m^2/s", kDefaults.gain, 0, 1e9, "gain of the repulsion, eta"},
                      {"floor", "m", kDefaults.floor, 1e-6, 10,
                       "clearance below which the repulsion grows no more (below d0)"},
-                     {"exempt_length", "m", kDefaults.exempt_length, 0, 10,
-                      "part of the last link, from the tip, that may be near obstacles"},
-                     acting_points_parameter({.all_pairs = kDefaults.all_pairs}),
+                     exempt_length_parameter(kDefaults.exempt_length),
+                     acting_points_parameter(kDefaults.all_pairs),
                      step_limit_parameter()},
       .make = [](const ParameterValues& values) -> std::unique_ptr<Method> {
         return std::make_unique<PotentialField>(read(values),

@@ -7,7 +7,7 @@
 
 #include "baselines/closest/arm_surroundings.hpp"
 #include "baselines/limited_step.hpp"
-#include "baselines/null_space_avoidance.hpp"
+#include "baselines/self_motions.hpp"
 #include "bqsa/method.hpp"
 
 namespace bqsa::baselines {

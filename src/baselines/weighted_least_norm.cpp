@@ -21,7 +21,7 @@ WeightedLeastNormSettings read(const ParameterValues& values) {
       .decay = values.number("decay"),
       .exponent = values.number("exponent"),
       .exempt_length = values.number("exempt_length"),
-      .all_pairs = values.choice("points") == "all",
+      .all_pairs = read_all_pairs(values),
       .motion = values.choice("motion") == "last" ? JudgedMotion::kLast : JudgedMotion::kPlanned};
 }
 
@@ -120,9 +120,8 @@ MethodEntry weighted_least_norm_method() {
                           "exponential decay of the collision function, alpha"},
                          {"exponent", "-", kDefaults.exponent, 0, 10,
                           "exponent of the distance in the collision function, beta"},
-                         {"exempt_length", "m", kDefaults.exempt_length, 0, 10,
-                          "part of the last link, from the tip, that may be near obstacles"},
-                         acting_points_parameter({.all_pairs = kDefaults.all_pairs}),
+                         exempt_length_parameter(kDefaults.exempt_length),
+                         acting_points_parameter(kDefaults.all_pairs),
                          choice_parameter("motion", {"last", "planned"},
                                           "motion by which joints move towards something: the last "
                                           "tick's, or this one's without weights")},

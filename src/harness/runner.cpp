@@ -9,10 +9,9 @@
 #include <limits>
 #include <memory>
 #include <new>
-#include <numeric>
 
 #include "harness/fingerprint.hpp"
-#include "harness/statistics/estimates.hpp"
+#include "harness/tick_log.hpp"
 
 namespace bqsa::harness {
 namespace {
@@ -54,39 +53,6 @@ bool same(const StepInput& a, const StepInput& b) {
          a.q.size() == b.q.size() && a.q == b.q;
 }
 
-/// Ticks in which each link-obstacle pair was cleared; storage for all pairs is taken at once.
-class PairTally {
- public:
-  explicit PairTally(std::size_t obstacles)
-      : obstacles_(obstacles), cells_((kMaxLinks + 1) * obstacles) {}
-
-  /// A pair named twice in a tick counts once.
-  void add(const Clamp& clamp, int tick) {
-    Cell& cell = cells_[static_cast<std::size_t>(clamp.link) * obstacles_ +
-                        static_cast<std::size_t>(clamp.obstacle)];
-    if (cell.last_tick != tick) ++cell.ticks;
-    cell.last_tick = tick;
-  }
-
-  std::vector<ClampedPair> pairs() const {
-    std::vector<ClampedPair> list;
-    for (std::size_t i = 0; i < cells_.size(); ++i) {
-      if (cells_[i].ticks == 0) continue;
-      list.push_back(
-          {static_cast<int>(i / obstacles_), static_cast<int>(i % obstacles_), cells_[i].ticks});
-    }
-    return list;
-  }
-
- private:
-  struct Cell {
-    int ticks = 0;
-    int last_tick = 0;
-  };
-  std::size_t obstacles_;
-  std::vector<Cell> cells_;
-};
-
 constexpr int kMostIncrements = 10'000'000;  // of one clamp; those of a tick can be added up
 
 /// Why the answer of a step cannot be used; empty if it can.
@@ -116,58 +82,6 @@ std::string fault_of(const StepOutput& output, const Problem& problem) {
   return output.q.allFinite() ? "" : "returned a joint angle that is not finite";
 }
 
-constexpr int kFirstWarmTick = 2;
-
-/// What is noted of the ticks; storage for all is taken at once.
-struct TickLog {
-  std::vector<double> step_s;      ///< of the ticks 1, 2, ...
-  std::vector<double> increments;  ///< of each tick in which a link was cleared
-  double slowest_s = -1;           ///< of the warm ticks
-  JointVector q_slowest;           ///< what the method was told at that tick
-  PairTally tally;
-
-  explicit TickLog(const Problem& problem) : tally(problem.obstacles.size()) {
-    step_s.reserve(static_cast<std::size_t>(problem.ticks));
-    increments.reserve(static_cast<std::size_t>(problem.ticks));
-  }
-
-  void add_step(const StepInput& input, double seconds) {
-    step_s.push_back(seconds);
-    if (input.tick < kFirstWarmTick || seconds <= slowest_s) return;
-    slowest_s = seconds;
-    q_slowest = input.q;
-  }
-};
-
-void summarize(const TickLog& log, RunTimes& times) {
-  if (log.step_s.empty()) return;
-  times.first_step_s = log.step_s.front();
-  std::vector<double> warm(log.step_s.begin() + 1, log.step_s.end());
-  if (warm.empty()) return;
-  const auto slowest = std::max_element(warm.begin(), warm.end());
-  times.warm_steps = static_cast<int>(warm.size());
-  times.warm_max_s = *slowest;
-  times.warm_max_tick = kFirstWarmTick + static_cast<int>(slowest - warm.begin());
-  times.warm_max_q = log.q_slowest;
-  for (const double seconds : warm) times.warm_histogram.add(seconds / RunTimes::kHistogramUnit);
-
-  std::sort(warm.begin(), warm.end());
-  times.warm_median_s = median_of(warm);
-  times.warm_p99_s = quantile_of(warm, 0.99);
-  times.warm_p999_s = quantile_of(warm, 0.999);
-}
-
-void summarize(std::vector<double> increments, TickIncrements& summary) {
-  if (increments.empty()) return;
-  std::sort(increments.begin(), increments.end());
-  const double sum = std::accumulate(increments.begin(), increments.end(), 0.0);
-  summary.mean = sum / static_cast<double>(increments.size());
-  summary.median = median_of(increments);
-  summary.p99 = quantile_of(increments, 0.99);
-  summary.max = static_cast<int>(increments.back());
-  for (const double count : increments) summary.histogram.add(count);
-}
-
 void count(TickState state, RunOutcome& outcome) {
   switch (state) {
     case TickState::kFree:
@@ -182,18 +96,6 @@ void count(TickState state, RunOutcome& outcome) {
     case TickState::kInfeasible:
       break;
   }
-}
-
-void count_clamps(const StepOutput& output, int tick, RunOutcome& outcome, TickLog& log) {
-  int increments = 0;
-  for (int i = 0; i < output.clamp_count; ++i) {
-    const Clamp& clamp = output.clamps[static_cast<std::size_t>(i)];
-    log.tally.add(clamp, tick);
-    increments += clamp.increments;
-    outcome.increments_max = std::max(outcome.increments_max, clamp.increments);
-  }
-  outcome.increments_total += increments;
-  if (output.clamp_count > 0) log.increments.push_back(increments);
 }
 
 /// The control loop; `outcome.tick` is the tick in progress.
@@ -238,7 +140,7 @@ void follow(ReactiveMethod& method, const Problem& problem, JointSensors& sensor
     }
     count(output.state, outcome);
     if (output.guard_fired) ++outcome.guard_fired;
-    count_clamps(output, tick, outcome, log);
+    log.add_clamps(output, tick);
   }
   outcome.tick = 0;
   outcome.claim = outcome.unclaimed_ticks > 0 ? Claim::kNothing : Claim::kSuccess;
@@ -326,9 +228,7 @@ RunOutcome run_method(const Problem& problem, const MethodEntry& entry,
   outcome.work_hidden = is_hidden(outcome.times.hidden_cpu_s, outcome.times.cpu_s);
   if (fingerprint(problem) != problem_before) outcome.inputs_changed = true;
   if (method) outcome.counters = method->counters();
-  outcome.clamped_pairs = log.tally.pairs();
-  summarize(log, outcome.times);
-  summarize(log.increments, outcome.increments);
+  log.summarize(outcome);
   return outcome;
 }
 

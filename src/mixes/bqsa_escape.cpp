@@ -6,6 +6,7 @@
 #include "baselines/closest/exact_distance_search.hpp"
 #include "baselines/limited_step.hpp"
 #include "baselines/null_space_avoidance.hpp"
+#include "baselines/self_motions.hpp"
 #include "bqsa/exact_search.hpp"
 
 namespace bqsa::mixes {
@@ -83,7 +84,7 @@ class BqsaEscape final : public ReactiveMethod {
 MethodEntry bqsa_escape_method() {
   std::vector<ParameterDeclaration> declared =
       baselines::avoidance_parameters(kDefaults, {kDefaults.law});
-  declared.push_back(baselines::acting_points_parameter(kDefaults));
+  declared.push_back(baselines::acting_points_parameter(kDefaults.all_pairs));
   return {.name = "bqsa_escape",
           .summary = "mix: BQSA leaning along Maciejewski and Klein's escape velocities",
           .source = "this project; built on the methods of the entries bqsa and maciejewski_klein",
@@ -95,7 +96,7 @@ MethodEntry bqsa_escape_method() {
           .parameters = declared,
           .make = [](const ParameterValues& values) -> std::unique_ptr<Method> {
             AvoidanceSettings settings = baselines::read_avoidance(values, kDefaults);
-            settings.all_pairs = values.choice("points") == "all";
+            settings.all_pairs = baselines::read_all_pairs(values);
             return std::make_unique<BqsaEscape>(settings);
           }};
 }

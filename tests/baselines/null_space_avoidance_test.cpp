@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/SVD>
-
 #include "baselines/closest/exact_distance_search.hpp"
 #include "baselines/closest/segment_ellipsoid_distance.hpp"
 #include "support/closest_point_scenes.hpp"
@@ -13,45 +11,7 @@ namespace {
 
 using test_support::Generator;
 using test_support::random_closest_point_scene;
-using test_support::uniform;
-
-JointVector random_joints(Generator& generator, int joints) {
-  return JointVector::NullaryExpr(joints, [&](Eigen::Index) { return uniform(generator, -1, 1); });
-}
-
-TEST(SelfMotions, ProjectLikeThePseudoInverseSingularArmsIncluded) {
-  Generator generator(1);
-  for (int trial = 0; trial < 2000; ++trial) {
-    const int rows = 1 + trial % 6;
-    const int joints = rows + trial % 9;
-    TaskJacobian J = TaskJacobian::NullaryExpr(
-        rows, joints, [&](Eigen::Index, Eigen::Index) { return uniform(generator, -1, 1); });
-    if (trial % 3 == 0 && rows > 1) J.row(rows - 1) = -2 * J.row(0);
-    if (trial % 7 == 0) J.row(0) *= 1e-5;
-    SelfMotions self_motions;
-    self_motions.assign(J);
-    Eigen::JacobiSVD<Eigen::MatrixXd> svd(J, Eigen::ComputeFullV | Eigen::ComputeThinU);
-    svd.setThreshold(1e-9);
-    const Eigen::MatrixXd V = svd.matrixV().leftCols(svd.rank());
-    const JointVector v = random_joints(generator, joints);
-    const JointVector expected = v - V * (V.transpose() * v);
-    EXPECT_LT((self_motions.project(v) - expected).norm(), 1e-10) << trial;
-  }
-}
-
-TEST(SelfMotions, DoNotMoveTheTipThoughRowsBeNearlyDependent) {
-  Generator generator(7);
-  for (int trial = 0; trial < 500; ++trial) {
-    TaskJacobian J = TaskJacobian::NullaryExpr(
-        3, 7, [&](Eigen::Index, Eigen::Index) { return uniform(generator, -1, 1); });
-    J.row(1) = J.row(0) + 1e-7 * J.row(1);
-    SelfMotions self_motions;
-    self_motions.assign(J);
-    const JointVector projected = self_motions.project(random_joints(generator, 7));
-    EXPECT_LT((self_motions.project(projected) - projected).norm(), 1e-14) << trial;
-    EXPECT_LT((J * projected).norm(), 1e-14) << trial;
-  }
-}
+using test_support::random_vector;
 
 TEST(AvoidanceLaws, AreTheFormulasWrittenOut) {
   const AvoidanceSettings settings{.influence = 0.06,
@@ -231,9 +191,9 @@ TEST(NullSpaceAvoidance, TheStepIsScaledUntilItFitsAndNoFurther) {
       problem.limits.lower = JointVector::Constant(7, -1.05);
       problem.limits.upper = JointVector::Constant(7, 1.05);
     }
-    const JointVector q = random_joints(generator, 7);
-    const JointVector tracking = (trial % 5 == 0 ? 0.3 : 0.02) * random_joints(generator, 7);
-    const JointVector avoidance = random_joints(generator, 7);
+    const JointVector q = random_vector<7>(generator, 1);
+    const JointVector tracking = (trial % 5 == 0 ? 0.3 : 0.02) * random_vector<7>(generator, 1);
+    const JointVector avoidance = random_vector<7>(generator, 1);
     const double part = fitting_part(problem, q, tracking, avoidance);
     const auto fits = [&](double k) {
       return forbidden_step(problem, q, q + tracking + k * avoidance) == Infeasible::kNot;

@@ -11,6 +11,24 @@ Eigen::Vector3d velocity_at(const Obstacle& obstacle, int tick, double dt,
   return (to.center() + to.rotation() * in_body - p) / dt;
 }
 
+ParameterDeclaration exempt_length_parameter(double default_value) {
+  return {"exempt_length",
+          "m",
+          default_value,
+          0,
+          10,
+          "part of the last link, from the tip, that may be near obstacles"};
+}
+
+ParameterDeclaration acting_points_parameter(bool all_pairs_by_default) {
+  return choice_parameter("points",
+                          all_pairs_by_default ? std::vector<std::string>{"all", "closest"}
+                                               : std::vector<std::string>{"closest", "all"},
+                          "which points act: each obstacle's closest, or all within influence");
+}
+
+bool read_all_pairs(const ParameterValues& values) { return values.choice("points") == "all"; }
+
 void ArmSurroundings::assign(const Problem& problem, const SurroundingsSettings& settings,
                              WorkCounters& counters) {
   problem_ = &problem;

@@ -31,6 +31,14 @@ struct SurroundingsSettings {
   bool obstacle_velocity = false;  ///< Escape::approach of moving obstacles, else 0
 };
 
+/// The length `exempt_length`.
+ParameterDeclaration exempt_length_parameter(double default_value);
+
+/// The choice `points` between `closest` and `all`.
+ParameterDeclaration acting_points_parameter(bool all_pairs_by_default);
+/// What was chosen.
+bool read_all_pairs(const ParameterValues& values);
+
 /// Nothing but `assign` allocates.
 class ArmSurroundings {
  public:

@@ -55,7 +55,7 @@ std::unique_ptr<ClosestPointSearch> chosen_search(const ParameterValues& values)
 
 /// Settings common to both: what the law and its parameters do not say.
 AvoidanceSettings read(const ParameterValues& values, AvoidanceSettings settings) {
-  settings.all_pairs = values.choice("points") == "all";
+  settings.all_pairs = read_all_pairs(values);
   settings.step_limit = read_step_limit(values);
   return read_avoidance(values, settings);
 }
@@ -66,7 +66,7 @@ void append(std::vector<ParameterDeclaration> more, std::vector<ParameterDeclara
 
 std::vector<ParameterDeclaration> common_parameters(const AvoidanceSettings& defaults) {
   std::vector<ParameterDeclaration> declared = avoidance_parameters(defaults, {defaults.law});
-  declared.push_back(acting_points_parameter(defaults));
+  declared.push_back(acting_points_parameter(defaults.all_pairs));
   declared.push_back(step_limit_parameter());
   return declared;
 }

@@ -35,15 +35,10 @@ std::vector<ParameterDeclaration> common_parameters(const QpAvoidanceSettings& d
            "of the velocity damper: a link may approach at gain (d - d_s)"},
           {"max_velocity", "rad/s", defaults.rows.max_velocity, 1e-3, 1e3,
            "of every joint, beside the problem's limits; the tip's task goes first"},
-          {"exempt_length", "m", defaults.exempt_length, 0, 10,
-           "part of the last link, from the tip, that may be near obstacles"},
+          exempt_length_parameter(defaults.exempt_length),
           {"slack_weight", "rad^2/m^2", defaults.rows.slack_weight, 1, 1e6,
            "of squared violations where the obstacles' constraints cannot be kept"},
-          choice_parameter("points",
-                           defaults.all_pairs ? std::vector<std::string>{"all", "closest"}
-                                              : std::vector<std::string>{"closest", "all"},
-                           "which points constrain: all within influence, or each obstacle's "
-                           "closest")};
+          acting_points_parameter(defaults.all_pairs)};
 }
 
 /// @throws ParameterError if safe_distance is not below influence
@@ -54,7 +49,7 @@ QpAvoidanceSettings read(const ParameterValues& values, QpAvoidanceSettings sett
   settings.rows.max_velocity = values.number("max_velocity");
   settings.exempt_length = values.number("exempt_length");
   settings.rows.slack_weight = values.number("slack_weight");
-  settings.all_pairs = values.choice("points") == "all";
+  settings.all_pairs = read_all_pairs(values);
   if (!(settings.rows.safe_distance < settings.influence)) {
     throw ParameterError("parameter 'safe_distance': expected less than 'influence'");
   }

@@ -1,9 +1,9 @@
 #include "harness/program/program_main.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <csignal>
 #include <iostream>
 
@@ -20,11 +20,17 @@ void fill_closed_standard_streams() {
   }
 }
 
+/// Whether standard output is a pipe that nobody reads any more.
+bool output_has_no_reader() {
+  pollfd output{STDOUT_FILENO, POLLOUT, 0};
+  return poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0;
+}
+
 }  // namespace
 
 int program_main(int argc, const char* const* argv, const std::vector<MethodEntry>& added) {
   fill_closed_standard_streams();
-  // A reader that goes away (`| head`) must not end runs that are under way.
+  // A reader that goes away (`| head`) must not end runs that are under way, and is no error.
   std::signal(SIGPIPE, SIG_IGN);
   // Nor must a limit on the size of files: the write fails and is reported.
   std::signal(SIGXFSZ, SIG_IGN);
@@ -32,8 +38,7 @@ int program_main(int argc, const char* const* argv, const std::vector<MethodEntr
   std::signal(SIGCHLD, SIG_DFL);
   const Console console{std::cout, std::cerr, isatty(STDERR_FILENO) != 0};
   const int status = run_program(argc, argv, console, added);
-  errno = 0;
-  if (std::cout.flush() || errno == EPIPE) return status;
+  if (std::cout.flush() || output_has_no_reader()) return status;
   console.error("cannot write to standard output");
   return kBadInput;
 }

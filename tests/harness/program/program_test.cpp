@@ -223,10 +223,28 @@ TEST(Program, ConformEndsWithOneWhereALawIsBroken) {
                         "a problem at hand, found spatial problems not supported yet\n"));
 }
 
+/// `show` notices while it prints, `list` at its end.
+const std::vector<std::vector<std::string>> kPrinting = {{"list"},
+                                                         {"show", "results/paper_scenarios"}};
+
 TEST(Program, OutputThatCannotBeWrittenIsAnError) {
-  const ProgramResult result = run_bqsa_bench({"list"}, "/dev/full", BQSA_SOURCE_DIR);
-  EXPECT_EQ(result.status, 2);
-  EXPECT_THAT(result.err, HasSubstr("cannot write to standard output"));
+  for (const std::vector<std::string>& words : kPrinting) {
+    const ProgramResult result = run_bqsa_bench(words, "/dev/full", BQSA_SOURCE_DIR);
+    EXPECT_EQ(result.status, 2) << words[0];
+    EXPECT_THAT(result.err, HasSubstr("cannot write to standard output")) << words[0];
+  }
+}
+
+TEST(Program, AReaderThatGoesAwayIsNotAnError) {
+  for (const std::vector<std::string>& words : kPrinting) {
+    int ends[2];
+    ASSERT_EQ(pipe2(ends, O_CLOEXEC), 0);
+    close(ends[0]);
+    const ProgramResult result = run_bqsa_bench_into(ends[1], words, BQSA_SOURCE_DIR);
+    close(ends[1]);
+    EXPECT_EQ(result.status, 0) << words[0];
+    EXPECT_EQ(result.err, "") << words[0];
+  }
 }
 
 }  // namespace

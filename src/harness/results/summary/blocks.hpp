@@ -1,0 +1,34 @@
+/// @file
+/// The blocks of the summary, each a text that ends with a line break or is empty.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/results/summary/tallies.hpp"
+
+namespace bqsa::harness {
+
+/// How a run is classed whose planning method found no plan.
+inline constexpr const char* kNoPlan = "no plan";
+
+std::string success_table(const Tallies& tallies);
+
+/// What must not be overlooked: claims that the judge contradicts.
+std::string alarms(const Tallies& tallies);
+
+std::string failure_table(const Tallies& tallies);
+
+/// What stood in the way of methods that gave up; empty if no run was asked.
+std::string why_table(const Tallies& tallies);
+
+/// Methods in pairs, on the scenarios to which both apply; empty if no two ever succeeded.
+std::string pair_table(const Tallies& tallies, const std::vector<TableRow>& rows);
+
+std::string accuracy_table(const Tallies& tallies);
+std::string time_table(const Tallies& tallies);
+
+/// Of planning methods; empty if there is no plan.
+std::string plan_table(const Tallies& tallies);
+
+}  // namespace bqsa::harness
