@@ -53,6 +53,7 @@ struct CommandLine {
   GenerateOptions generate;
   StepOptions step;
   ConformOptions conform;
+  FiguresOptions figures;
   ReportOptions report;
   std::filesystem::path scenario_directory;
   std::filesystem::path results_directory;
@@ -241,6 +242,20 @@ void declare(CLI::App& app, CommandLine& line) {
   generate->callback([&line] {
     line.command = [&line](const Console& console) {
       return generate_command(line.generate, console);
+    };
+  });
+
+  CLI::App* figures =
+      add_command(app, "figures", "Draw the paper's figures from our own runs and measurements");
+  figures
+      ->add_option("--out,-o", line.figures.directory,
+                   "Directory for the figures: CSV, gnuplot script, SVG and PNG of each")
+      ->required();
+  figures->add_option("--scenarios", line.figures.scenarios,
+                      "Directory with the paper's scenarios [./scenarios]");
+  figures->callback([&line] {
+    line.command = [&line](const Console& console) {
+      return figures_command(line.figures, console);
     };
   });
 

@@ -1,0 +1,51 @@
+#include <fmt/format.h>
+
+#include <ostream>
+
+#include "harness/figures/figure_writer.hpp"
+#include "harness/figures/gnuplot.hpp"
+#include "harness/figures/posture_figures.hpp"
+#include "harness/program/commands.hpp"
+
+namespace bqsa::harness {
+namespace {
+
+/// Figs. 8 to 12 of the paper.
+void write_planar_figures(const std::filesystem::path& scenarios, FigureWriter& writer) {
+  const Scenario planar = load_scenario(scenarios / "planar_7r.yaml");
+  const JudgedRun paper = judged_run(planar, "bqsa_paper");
+  const JudgedRun exact = judged_run(planar, "bqsa");
+  writer.write(planar_configurations(paper, exact));
+}
+
+/// Figs. 14 to 20.
+void write_spatial_figures(const std::filesystem::path& scenarios, FigureWriter& writer) {
+  const Scenario ellipsoid = load_scenario(scenarios / "puma560_ellipsoid.yaml");
+  const JudgedRun projection = judged_run(ellipsoid, "bqsa_projection");
+  const JudgedRun exact = judged_run(ellipsoid, "bqsa");
+  writer.write(projected_configurations(projection, exact));
+  writer.write(spatial_configurations(projection, exact));
+
+  const Scenario wall = load_scenario(scenarios / "puma560_wall.yaml");
+  writer.write(wall_configurations(judged_run(wall, "bqsa_projection"), judged_run(wall, "bqsa")));
+}
+
+}  // namespace
+
+Status figures_command(const FiguresOptions& options, const Console& console) {
+  const std::filesystem::path gnuplot = find_gnuplot();
+  FigureWriter writer(options.directory, gnuplot);
+  write_planar_figures(options.scenarios, writer);
+  write_spatial_figures(options.scenarios, writer);
+  writer.write_index("# Figures\n");
+  console.out << fmt::format("{}: wrote {} figures, see index.md\n", options.directory.string(),
+                             writer.figures());
+  if (gnuplot.empty()) {
+    console.out
+        << "gnuplot was not found: pictures are left out, data and scripts are there; install "
+           "gnuplot-nox and run this again, or `gnuplot NAME.gp` in the directory\n";
+  }
+  return kOk;
+}
+
+}  // namespace bqsa::harness
