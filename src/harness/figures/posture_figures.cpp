@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "harness/figures/panels.hpp"
+
 namespace bqsa::harness {
 namespace {
 
@@ -84,11 +86,11 @@ Vector2d point_on(const Ellipse& ellipse, double angle) {
 
 constexpr const char* kPanelHead = R"gp(
 set size ratio -1    # equal units
-set key at screen 0.5,0.035 center horizontal maxrows 1 samplen 3 width 2
+set key {key} samplen 3 font ",13"
 set palette defined (0 "#b9cdea", 1 "#06143a")
 set cbrange [0:{duration}]
 set cblabel "time t [s]" offset 0,0.5
-set colorbox user horizontal origin screen 0.3,0.155 size screen 0.4,0.018
+set colorbox user horizontal origin screen 0.3,0.125 size screen 0.4,0.018
 set cbtics scale 0.4 offset 0,0.4
 set xlabel "x [m]"
 )gp";
@@ -115,7 +117,7 @@ std::string label_at(const Ellipse& ellipse, const std::string& name, const Boun
 
 /// Two panels in a plane of two axes.
 Figure plane_figure(Figure figure, const JudgedRun& first, const JudgedRun& second,
-                    const std::vector<Ellipse>& ellipses, int second_axis) {
+                    const std::vector<Ellipse>& ellipses, int second_axis, const char* key) {
   const char* names[] = {"x [m]", "y [m]", "z [m]"};
   const std::string v = names[second_axis];
   add_runs(first, second, figure);
@@ -139,13 +141,15 @@ Figure plane_figure(Figure figure, const JudgedRun& first, const JudgedRun& seco
   }
   figure.data.emplace_back("obstacles", outlines);
 
-  figure.drawing = fmt::format(
-      "set multiplot layout 1,2 margins 0.075,0.985,0.27,0.95 spacing 0.085,0\n"
-      "set xrange {}\nset yrange {}\nset ylabel \"{}\"\n",
-      bounds.range(0), bounds.range(second_axis), v);
+  figure.drawing = fmt::format("set multiplot\nset xrange {}\nset yrange {}\nset ylabel \"{}\"\n",
+                               bounds.range(0), bounds.range(second_axis), v);
   figure.drawing += labels;
-  figure.drawing += fmt::format(kPanelHead, fmt::arg("duration", first.problem().duration()));
+  figure.drawing += fmt::format(kPanelHead, fmt::arg("duration", first.problem().duration()),
+                                fmt::arg("key", key));
+  const PanelGrid grid{
+      .rows = 1, .columns = 2, .left = 0.075, .right = 0.985, .bottom = 0.26, .top = 0.95};
   for (const JudgedRun* run : {&first, &second}) {
+    figure.drawing += grid.place(0, run == &first ? 0 : 1);
     figure.drawing +=
         fmt::format(kPlanePanel, fmt::arg("title", plain(verdict_text(*run))),
                     fmt::arg("method", run->method), fmt::arg("u", "x [m]"), fmt::arg("v", v));
@@ -208,9 +212,12 @@ Figure space_figure(Figure figure, const JudgedRun& first, const JudgedRun& seco
   figure.data.emplace_back("obstacles", wireframe(first.problem().obstacles, reach));
   figure.drawing = fmt::format("set multiplot\nset xrange {}\nset yrange {}\nset zrange {}\n",
                                bounds.range(0), bounds.range(1), bounds.range(2));
-  figure.drawing += fmt::format(kPanelHead, fmt::arg("duration", first.problem().duration()));
+  figure.drawing +=
+      fmt::format(kPanelHead, fmt::arg("duration", first.problem().duration()),
+                  fmt::arg("key", "at screen 0.5,0.035 center horizontal maxrows 1 width 2"));
   figure.drawing += fmt::format(
-      "set ylabel \"y [m]\"\nset zlabel \"z [m]\" rotate\nset border 4095\nset xyplane relative 0\n"
+      "set ylabel \"y [m]\"\nset zlabel \"z [m]\" rotate offset 2,0\nset border 4095\nset xyplane "
+      "relative 0\n"
       "set view equal xyz\nset view {}\nset xtics 0.2\nset ytics 0.1\nset ztics 0.2\n",
       view);
   for (const JudgedRun* run : {&first, &second}) {
@@ -235,7 +242,7 @@ Figure planar_configurations(const JudgedRun& first, const JudgedRun& second) {
                                "obstacle and the path of the tip",
                        .width = 1300,
                        .height = 760},
-                      first, second, ellipses, 1);
+                      first, second, ellipses, 1, "bottom left");
 }
 
 Figure projected_configurations(const JudgedRun& first, const JudgedRun& second) {
@@ -251,7 +258,7 @@ Figure projected_configurations(const JudgedRun& first, const JudgedRun& second)
                                "projected on the plane XOZ",
                        .width = 1200,
                        .height = 860},
-                      first, second, ellipses, 2);
+                      first, second, ellipses, 2, "bottom right");
 }
 
 Figure spatial_configurations(const JudgedRun& first, const JudgedRun& second) {
@@ -260,7 +267,7 @@ Figure spatial_configurations(const JudgedRun& first, const JudgedRun& second) {
                        .what = "Configurations of the PUMA 560 around the ellipsoid",
                        .width = 1300,
                        .height = 800},
-                      first, second, "68,40,1.15");
+                      first, second, "70,40,1.22");
 }
 
 Figure wall_configurations(const JudgedRun& first, const JudgedRun& second) {
@@ -269,7 +276,7 @@ Figure wall_configurations(const JudgedRun& first, const JudgedRun& second) {
                        .what = "Configurations of the PUMA 560 beside the wall",
                        .width = 1300,
                        .height = 800},
-                      first, second, "68,55,1.05");
+                      first, second, "74,62,1.08");
 }
 
 }  // namespace bqsa::harness

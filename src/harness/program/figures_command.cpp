@@ -5,6 +5,7 @@
 #include "harness/figures/figure_writer.hpp"
 #include "harness/figures/gnuplot.hpp"
 #include "harness/figures/posture_figures.hpp"
+#include "harness/figures/tracking_figures.hpp"
 #include "harness/program/commands.hpp"
 
 namespace bqsa::harness {
@@ -16,6 +17,9 @@ void write_planar_figures(const std::filesystem::path& scenarios, FigureWriter& 
   const JudgedRun paper = judged_run(planar, "bqsa_paper");
   const JudgedRun exact = judged_run(planar, "bqsa");
   writer.write(planar_configurations(paper, exact));
+  writer.write(planar_trajectory(paper, exact));
+  writer.write(planar_errors(paper, exact));
+  writer.write(planar_joint_angles(paper, exact));
 }
 
 /// Figs. 14 to 20.
@@ -25,6 +29,9 @@ void write_spatial_figures(const std::filesystem::path& scenarios, FigureWriter&
   const JudgedRun exact = judged_run(ellipsoid, "bqsa");
   writer.write(projected_configurations(projection, exact));
   writer.write(spatial_configurations(projection, exact));
+  writer.write(spatial_trajectory(projection, exact));
+  writer.write(spatial_errors(projection, exact));
+  writer.write(spatial_joint_angles(projection, exact));
 
   const Scenario wall = load_scenario(scenarios / "puma560_wall.yaml");
   writer.write(wall_configurations(judged_run(wall, "bqsa_projection"), judged_run(wall, "bqsa")));
