@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace bqsa::harness {
 
@@ -10,7 +11,7 @@ namespace bqsa::harness {
 struct PanelGrid {
   int rows;
   int columns;
-  double left = 0.08;  ///< of the first column's left axis
+  double left = 0.09;  ///< of the first column's left axis
   double right = 0.98;
   double bottom = 0.16;
   double top = 0.93;
@@ -21,9 +22,18 @@ struct PanelGrid {
   std::string place(int row, int column) const;
 };
 
-/// A strip at the bottom of the figure with nothing but a legend, to be drawn after all panels.
-/// All entries get as much room as the longest needs; what does not fit in one row is ugly.
-/// @param entries  plot elements of `NaN`, as `NaN with lines linestyle 1 title "a", ...`
-std::string legend_strip(const std::string& entries);
+/// One line of a legend.
+struct LegendEntry {
+  enum Kind { kLine, kMarkedLine, kArea };
+
+  Kind kind;
+  std::string style;  ///< of gnuplot, as `linestyle 1`; of an area its fill colour, as `"#dcdcdc"`
+  std::string text;   ///< enhanced
+};
+
+/// A row at the bottom of the figure with nothing but a legend, to be drawn after all panels. Unlike
+/// gnuplot's own, its columns are only as wide as their texts.
+/// @param width  of the figure [pixel]
+std::string legend_row(const std::vector<LegendEntry>& entries, int width);
 
 }  // namespace bqsa::harness

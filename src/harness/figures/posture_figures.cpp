@@ -86,7 +86,7 @@ Vector2d point_on(const Ellipse& ellipse, double angle) {
 
 constexpr const char* kPanelHead = R"gp(
 set size ratio -1    # equal units
-set key {key} samplen 3 font ",13"
+set key {key} samplen 2.5 font ",13"
 set palette defined (0 "#b9cdea", 1 "#06143a")
 set cbrange [0:{duration}]
 set cblabel "time t [s]" offset 0,0.5
@@ -214,7 +214,7 @@ Figure space_figure(Figure figure, const JudgedRun& first, const JudgedRun& seco
                                bounds.range(0), bounds.range(1), bounds.range(2));
   figure.drawing +=
       fmt::format(kPanelHead, fmt::arg("duration", first.problem().duration()),
-                  fmt::arg("key", "at screen 0.5,0.035 center horizontal maxrows 1 width 2"));
+                  fmt::arg("key", "at screen 0.5,0.035 center vertical maxrows 1 width 2"));
   figure.drawing += fmt::format(
       "set ylabel \"y [m]\"\nset zlabel \"z [m]\" rotate offset 2,0\nset border 4095\nset xyplane "
       "relative 0\n"
@@ -241,8 +241,8 @@ Figure planar_configurations(const JudgedRun& first, const JudgedRun& second) {
                        .what = "Configurations of the planar arm along the motion, with object, "
                                "obstacle and the path of the tip",
                        .width = 1300,
-                       .height = 760},
-                      first, second, ellipses, 1, "bottom left");
+                       .height = 650},
+                      first, second, ellipses, 1, "bottom left reverse Left");
 }
 
 Figure projected_configurations(const JudgedRun& first, const JudgedRun& second) {
@@ -258,7 +258,7 @@ Figure projected_configurations(const JudgedRun& first, const JudgedRun& second)
                                "projected on the plane XOZ",
                        .width = 1200,
                        .height = 860},
-                      first, second, ellipses, 2, "bottom right");
+                      first, second, ellipses, 2, "bottom right reverse Left");
 }
 
 Figure spatial_configurations(const JudgedRun& first, const JudgedRun& second) {
@@ -276,7 +276,7 @@ Figure wall_configurations(const JudgedRun& first, const JudgedRun& second) {
                        .what = "Configurations of the PUMA 560 beside the wall",
                        .width = 1300,
                        .height = 800},
-                      first, second, "74,62,1.08");
+                      first, second, "74,62,1.15");
 }
 
 }  // namespace bqsa::harness

@@ -31,10 +31,8 @@ void add_close_spans(const RunPair& runs, Figure& figure) {
   }
 }
 
-constexpr const char* kCloseLegend =
-    "NaN with boxes fillstyle solid noborder linecolor \"#dcdcdc\" title \"a link within 0.1 mm of "
-    "an "
-    "obstacle\"";
+const LegendEntry kCloseLegend = {LegendEntry::kArea, "\"#dcdcdc\"",
+                                  "a link within 0.1 mm of an obstacle"};
 
 /// The gnuplot plot element that draws them over the whole height of the panel.
 std::string close_element(const JudgedRun& run) {
@@ -97,15 +95,9 @@ plot name . "_{method}.csv" using "{u} desired [m]":"{v} desired [m]" with lines
   "" using (column("{u} desired [m]") + enlarged * (column("{u} [m]") - column("{u} desired [m]"))):(column("{v} desired [m]") + enlarged * (column("{v} [m]") - column("{v} desired [m]"))) with lines linewidth 1.2 linecolor "#c33b4f" notitle
 )gp";
 
-constexpr const char* kPathLegend =
-    "NaN with lines linewidth 9 linecolor \"#cfcfcf\" title \"desired path\", NaN with lines "
-    "linewidth "
-    "1.5 linecolor \"#000000\" dashtype (6,4) title \"actual path\", NaN with lines linewidth 1.2 "
-    "linecolor \"#c33b4f\" title \"deviation enlarged, between ticks too\"";
-
 /// @param u, v  axes shown: 0 for x, 1 for y, 2 for z
 Figure trajectory_figure(Figure figure, const RunPair& runs, std::size_t u, std::size_t v) {
-  const PanelGrid grid{.rows = 1, .columns = 2, .bottom = 0.17};
+  const PanelGrid grid{.rows = 1, .columns = 2, .bottom = 0.2};
   figure.drawing = fmt::format(
       "set multiplot\nset size ratio -1    # equal units\nset xlabel \"{} [m]\"\nset ylabel \"{} "
       "[m]\"\n",
@@ -123,7 +115,12 @@ Figure trajectory_figure(Figure figure, const RunPair& runs, std::size_t u, std:
                                   fmt::arg("y_range", bounds.range(static_cast<Eigen::Index>(v))),
                                   fmt::arg("enlarged", enlargement(samples)));
   }
-  figure.drawing += legend_strip(kPathLegend);
+  figure.drawing += legend_row(
+      {{LegendEntry::kLine, "linewidth 9 linecolor \"#cfcfcf\"", "desired path"},
+       {LegendEntry::kLine, "linewidth 1.5 linecolor \"#000000\" dashtype (6,4)", "actual path"},
+       {LegendEntry::kLine, "linewidth 1.2 linecolor \"#c33b4f\"",
+        "deviation enlarged, between ticks too"}},
+      figure.width);
   return figure;
 }
 
@@ -223,11 +220,11 @@ Figure error_figure(Figure figure, const RunPair& runs, int axes) {
           fmt::arg("axis", letter));
     }
   }
-  figure.drawing += legend_strip(
-      fmt::format("NaN with lines linewidth 2 linecolor \"#000000\" title \"at ticks\", "
-                  "NaN with boxes fillstyle solid noborder linecolor \"#ee9418\" title "
-                  "\"on the way to the tick\", {}",
-                  kCloseLegend));
+  figure.drawing +=
+      legend_row({{LegendEntry::kLine, "linewidth 2 linecolor \"#000000\"", "at ticks"},
+                  {LegendEntry::kArea, "\"#ee9418\"", "on the way to the tick"},
+                  kCloseLegend},
+                 figure.width);
   return figure;
 }
 
@@ -326,7 +323,7 @@ Figure joint_figure(Figure figure, const RunPair& runs) {
       figure.drawing += joint_panel(*runs.at(static_cast<std::size_t>(column)), row == 1);
     }
   }
-  figure.drawing += legend_strip(kCloseLegend);
+  figure.drawing += legend_row({kCloseLegend}, figure.width);
   return figure;
 }
 
@@ -338,7 +335,7 @@ Figure planar_trajectory(const JudgedRun& first, const JudgedRun& second) {
                             .what = "Desired and actual path of the planar arm's tip, and the "
                                     "deviation enlarged",
                             .width = 1300,
-                            .height = 640},
+                            .height = 520},
                            {&first, &second}, 0, 1);
 }
 

@@ -2,6 +2,7 @@
 
 #include <ostream>
 
+#include "harness/figures/criteria_figures.hpp"
 #include "harness/figures/figure_writer.hpp"
 #include "harness/figures/gnuplot.hpp"
 #include "harness/figures/posture_figures.hpp"
@@ -17,6 +18,8 @@ void write_planar_figures(const std::filesystem::path& scenarios, FigureWriter& 
   const JudgedRun paper = judged_run(planar, "bqsa_paper");
   const JudgedRun exact = judged_run(planar, "bqsa");
   writer.write(planar_configurations(paper, exact));
+  writer.write(planar_criteria(paper, "fig09_planar_criteria"));
+  writer.write(planar_criteria(exact, "fig09_planar_criteria_exact"));
   writer.write(planar_trajectory(paper, exact));
   writer.write(planar_errors(paper, exact));
   writer.write(planar_joint_angles(paper, exact));
@@ -29,6 +32,7 @@ void write_spatial_figures(const std::filesystem::path& scenarios, FigureWriter&
   const JudgedRun exact = judged_run(ellipsoid, "bqsa");
   writer.write(projected_configurations(projection, exact));
   writer.write(spatial_configurations(projection, exact));
+  writer.write(spatial_criteria(projection, exact));
   writer.write(spatial_trajectory(projection, exact));
   writer.write(spatial_errors(projection, exact));
   writer.write(spatial_joint_angles(projection, exact));
