@@ -312,7 +312,7 @@ Figure joint_figure(Figure figure, const RunPair& runs) {
   add_close_spans(runs, figure);
   for (const JudgedRun* run : runs) figure.data.emplace_back(run->method, joint_table(*run));
   const PanelGrid grid{
-      .rows = 2, .columns = 2, .left = 0.075, .right = 0.96, .bottom = 0.14, .gap_x = 0.11};
+      .rows = 2, .columns = 2, .left = 0.085, .right = 0.96, .bottom = 0.14, .gap_x = 0.11};
   figure.drawing = fmt::format("set multiplot\nset xrange [0:{}]\n", runs[0]->problem().duration());
   for (const int row : {0, 1}) {
     figure.drawing += row == 0 ? "set format x \"\"\nset ylabel \"joint angle [deg]\"\n"
