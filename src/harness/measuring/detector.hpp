@@ -23,12 +23,17 @@ class Detection {
   virtual void detect(int pose, std::span<std::uint8_t> hit) = 0;
 };
 
-/// What a detector's answers are worth.
+/// Test points that are closer than this are a hit [m].
+inline constexpr double kTestPointMargin = 0.02;
+
+/// What a detector's answers are worth; `verify_detector` holds it to that.
 enum class Accuracy {
-  kExact,         ///< those of the reference, but for touching to within rounding
-  kConservative,  ///< never free where the reference finds a hit
-  kSampled,       ///< misses hits between its test points
-  kPaper,         ///< exact but for links that are vertical, or nearly so
+  kExact,              ///< those of the reference, but for touching to within rounding
+  kLibrary,            ///< the same, but for touching to within the library's tolerance
+  kSampled,            ///< misses hits between its test points
+  kPaper,              ///< exact but for links that are vertical, or nearly so
+  kPaperConservative,  ///< never free where the reference finds a hit, but for links that look
+                       ///< vertical, or nearly so, in one of the projections
 };
 
 struct Detector {
@@ -39,11 +44,14 @@ struct Detector {
   bool in_plane;  ///< can be prepared for workloads of dimension 2
   bool in_space;  ///< and of dimension 3
 
-  /// Multiplications a pair of link and obstacle, counted by the rule of the paper's section 3.4
-  /// (verified by an instrumented scalar); not a number for libraries.
+  /// Multiplications a pair of link and obstacle, counted by the rule of the paper's section 3.4: the
+  /// quadratic and its discriminant, or all pairs of test points (verified by an instrumented scalar);
+  /// not a number for libraries and iterations.
   double (*multiplications)(const WorkloadSize& size);
 
-  /// The workload must outlive the detection.
+  bool is_for(int dimension) const { return dimension == 2 ? in_plane : in_space; }
+
+  /// The workload must outlive the detection, and be of a dimension that the detector is for.
   std::unique_ptr<Detection> (*prepare)(const Workload& workload);
 };
 

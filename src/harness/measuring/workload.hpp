@@ -29,20 +29,31 @@ struct WorkloadSize {
   }
 };
 
-/// A size with this nk: n is the largest divisor of nk up to 10.
-/// @param point_pairs  NM, split so that points lie about equally dense on link and obstacle
+/// A size with exactly this nk and NM: n is the largest divisor of nk up to 10, and N the divisor of
+/// NM with which points lie most nearly as dense on links as on obstacles, which misses least.
+/// @throws InputError unless dimension is 2 or 3 and both others are positive
 WorkloadSize workload_size(int dimension, int pairs, int point_pairs);
 
-/// An arm in many poses, so that no branch predictor learns the answers, among obstacles, of which a
-/// fair share of the links hits some.
+/// Of every link of a workload [m].
+inline constexpr double kLinkLength = 0.3;
+
+/// An arm in many poses, so that no branch predictor learns the answers, among obstacles.
 struct Workload {
   WorkloadSize size;
-  std::vector<Eigen::Matrix3Xd>
-      poses;  ///< O_1 .. O_{n+1}, a column each, in W [m]; z = 0 in the plane
+
+  /// O_1 .. O_{n+1}, a column each, in W [m]; z = 0 in the plane.
+  std::vector<Eigen::Matrix3Xd> poses;
+
   std::vector<Ellipsoid> obstacles;  ///< in the plane `embedded` ellipses
 };
 
-/// The same for all sizes up to the counts, on all machines.
+/// Links are everywhere in a disk or ball with the same density, whatever their number, and so are the
+/// centres of the obstacles, whose semi-axes are 5 to 20 cm long: about every tenth pair is a hit,
+/// for every n and k. (Such a crowd suits no broadphase: it can leave out at most nine tenths.) Poses
+/// are as many as make at least 1024 links, and at least 32.
+///
+/// The same on all machines; poses and obstacles do not depend on the numbers of test points, and those
+/// of a smaller n or k are the first ones of a larger.
 Workload make_workload(const WorkloadSize& size, std::uint64_t seed);
 
 }  // namespace bqsa::harness

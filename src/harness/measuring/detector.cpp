@@ -1,0 +1,33 @@
+#include "harness/measuring/detector.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "harness/input_error.hpp"
+#include "harness/measuring/detector_lists.hpp"
+
+namespace bqsa::harness {
+
+std::span<const Detector> detectors() {
+  static const std::vector<Detector> kDetectors = [] {
+    std::vector<Detector> all;
+    for (const auto& some : {quadratic_detectors(), test_point_detectors(),
+                             exact_distance_detectors(), fcl_detectors(), ccd_detectors()}) {
+      all.insert(all.end(), some.begin(), some.end());
+    }
+    return all;
+  }();
+  return kDetectors;
+}
+
+const Detector& detector_named(std::string_view name) {
+  std::vector<std::string_view> names;
+  for (const Detector& detector : detectors()) {
+    if (detector.name == name) return detector;
+    names.push_back(detector.name);
+  }
+  throw InputError(
+      fmt::format("detector: expected one of {}, got '{}'", fmt::join(names, ", "), name));
+}
+
+}  // namespace bqsa::harness

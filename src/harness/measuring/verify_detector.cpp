@@ -1,0 +1,101 @@
+#include "harness/measuring/verify_detector.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "harness/judge/exact_distance.hpp"
+
+namespace bqsa::harness {
+namespace {
+
+bool looks_vertical(const Eigen::Vector3d& along, Accuracy accuracy) {
+  switch (accuracy) {
+    case Accuracy::kPaper:
+      return std::abs(along.x()) < kVertical;
+    case Accuracy::kPaperConservative:
+      return along.cwiseAbs().minCoeff() < kVertical;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+ReferenceAnswers reference_answers(const Workload& workload, int pairs_at_most) {
+  const int poses =
+      std::clamp(pairs_at_most / workload.size.pairs(), 1, static_cast<int>(workload.poses.size()));
+  ReferenceAnswers reference{.workload = &workload, .poses = poses, .clearance = {}};
+  for (int p = 0; p < poses; ++p) {
+    const Eigen::Matrix3Xd& pose = workload.poses[static_cast<std::size_t>(p)];
+    for (const Ellipsoid& shape : workload.obstacles) {
+      for (Eigen::Index i = 0; i + 1 < pose.cols(); ++i) {
+        reference.clearance.push_back(
+            exact_distance(pose.col(i), pose.col(i + 1), shape).clearance());
+      }
+    }
+  }
+  return reference;
+}
+
+Verification verify_detector(const Detector& detector, const ReferenceAnswers& reference) {
+  const Workload& workload = *reference.workload;
+  const std::unique_ptr<Detection> detection = detector.prepare(workload);
+  std::vector<std::uint8_t> answers(static_cast<std::size_t>(workload.size.pairs()));
+  const double band = touching_band(detector.accuracy);
+
+  Verification verification;
+  auto clearance = reference.clearance.begin();
+  for (int p = 0; p < reference.poses; ++p) {
+    detection->detect(p, answers);
+    const Eigen::Matrix3Xd& pose = workload.poses[static_cast<std::size_t>(p)];
+    for (std::size_t pair = 0; pair < answers.size(); ++pair, ++clearance) {
+      const auto i = static_cast<Eigen::Index>(pair) % workload.size.links;
+      if (std::abs(*clearance) < band) {
+        ++verification.touching;
+      } else if (looks_vertical(pose.col(i + 1) - pose.col(i), detector.accuracy)) {
+        ++verification.vertical;
+      } else if (*clearance < 0) {
+        ++verification.hits;
+        verification.missed += answers[pair] == 0;
+      } else {
+        ++verification.free;
+        verification.false_alarms += answers[pair] != 0;
+      }
+    }
+  }
+  return verification;
+}
+
+double touching_band(Accuracy accuracy) {
+  switch (accuracy) {
+    case Accuracy::kExact:
+    case Accuracy::kSampled:
+      return 1e-12;
+    case Accuracy::kPaper:
+    case Accuracy::kPaperConservative:
+    case Accuracy::kLibrary:
+      return 1e-6;
+  }
+  return 0;
+}
+
+std::string broken_promise(const Detector& detector, const Verification& verification) {
+  const auto& [hits, missed, free, false_alarms, touching, vertical] = verification;
+  if (hits == 0 || free == 0) {
+    return fmt::format("{}: expected hits and free pairs to check it on, got {} and {}",
+                       detector.name, hits, free);
+  }
+  const bool may_miss = detector.accuracy == Accuracy::kSampled;
+  const bool may_alarm = may_miss || detector.accuracy == Accuracy::kPaperConservative;
+  if (missed > 0 && !may_miss) {
+    return fmt::format("{}: missed {} of {} hits", detector.name, missed, hits);
+  }
+  if (false_alarms > 0 && !may_alarm) {
+    return fmt::format("{}: called {} of {} free pairs hits", detector.name, false_alarms, free);
+  }
+  return {};
+}
+
+}  // namespace bqsa::harness
