@@ -122,7 +122,7 @@ std::vector<Detector> quadratic_detectors() {
            }},
       {.name = "bqsa",
        .label = "BQSA",
-       .what = "the quadratic in polar form, end-points shared by links: what the methods run",
+       .what = "the quadratic in polar form, every end-point mapped once for both its links",
        .accuracy = Accuracy::kExact,
        .in_plane = true,
        .in_space = true,

@@ -18,10 +18,13 @@ constexpr int kFewestPoses = 32;
 constexpr int kFewestPlacedLinks = 1024;
 
 constexpr double kShortestAxis = 0.05;  // semi-axes of obstacles [m]
-constexpr double kLongestAxis = 0.20;
+constexpr double kLongestAxis = 0.25;
 
-/// Of the disk or ball that everything is in [m]; in space smaller, for as many hits.
-constexpr double crowd_radius(int dimension) { return dimension == 2 ? 0.5 : 0.35; }
+/// Of the disk or ball that links are in [m]; in space smaller, for as many hits.
+constexpr double arm_radius(int dimension) { return dimension == 2 ? 0.75 : 0.5; }
+
+/// Of the disk or ball that the centres of obstacles are in, where links are equally dense [m].
+constexpr double center_radius(int dimension) { return 0.5 * arm_radius(dimension); }
 
 /// Keys of the random streams, beside the seed and the number of the pose or obstacle.
 enum Purpose : std::uint64_t { kPose = 1, kObstacle = 2 };
@@ -47,13 +50,13 @@ template <int Dim>
 Eigen::Matrix3Xd draw_pose(int links, RandomStream random) {
   using Vector = Eigen::Matrix<double, Dim, 1>;
   Eigen::Matrix3Xd pose = Eigen::Matrix3Xd::Zero(3, links + 1);
-  Vector p = crowd_radius(Dim) * in_unit_ball<Dim>(random);
+  Vector p = arm_radius(Dim) * in_unit_ball<Dim>(random);
   pose.col(0).head<Dim>() = p;
   for (int i = 1; i <= links; ++i) {
     Vector next;
     do {
       next = p + kLinkLength * unit_vector<Dim>(random);
-    } while (!(next.squaredNorm() <= crowd_radius(Dim) * crowd_radius(Dim)));
+    } while (!(next.squaredNorm() <= arm_radius(Dim) * arm_radius(Dim)));
     p = next;
     pose.col(i).head<Dim>() = p;
   }
@@ -63,7 +66,7 @@ Eigen::Matrix3Xd draw_pose(int links, RandomStream random) {
 template <int Dim>
 Ellipsoid draw_obstacle(RandomStream random) {
   using Vector = Eigen::Matrix<double, Dim, 1>;
-  const Vector center = crowd_radius(Dim) * in_unit_ball<Dim>(random);
+  const Vector center = center_radius(Dim) * in_unit_ball<Dim>(random);
   Vector semi_axes;
   for (int k = 0; k < Dim; ++k) semi_axes(k) = random.uniform(kShortestAxis, kLongestAxis);
   if constexpr (Dim == 2) {
@@ -92,11 +95,11 @@ Workload draw(const WorkloadSize& size, std::uint64_t seed) {
   return workload;
 }
 
-/// How many points an obstacle needs to be covered as densely as a link with `link` points, for an
-/// obstacle of the mean semi-axis: by length in the plane, by area in space.
+/// How many points an obstacle of the mean semi-axis needs to be covered as densely as a link with
+/// `link` points: by length in the plane, by area in space.
 double as_dense(int dimension, int link) {
   constexpr double kMeanAxis = 0.5 * (kShortestAxis + kLongestAxis);
-  const double spacing = kLinkLength / link;
+  const double spacing = kLinkLength / std::max(link - 1, 1);
   return dimension == 2 ? 2 * std::numbers::pi * kMeanAxis / spacing
                         : 4 * std::numbers::pi * kMeanAxis * kMeanAxis / (spacing * spacing);
 }
