@@ -82,7 +82,8 @@ PaperMean paper_mean(Passes& passes, double budget_s) {
 void verify(const Workload& workload, const std::vector<const Detector*>& detectors, int pairs) {
   const ReferenceAnswers reference = reference_answers(workload, pairs);
   for (const Detector* detector : detectors) {
-    const std::string broken = broken_promise(*detector, verify_detector(*detector, reference));
+    const std::string broken =
+        broken_promise(*detector, verify_detector(*detector, workload, reference));
     if (broken.empty()) continue;
     throw std::runtime_error(fmt::format(
         "nk = {}, NM = {} in {} dimensions: {}; no times are taken", workload.size.pairs(),
