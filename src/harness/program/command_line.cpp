@@ -253,6 +253,8 @@ void declare(CLI::App& app, CommandLine& line) {
       ->required();
   figures->add_option("--scenarios", line.figures.scenarios,
                       "Directory with the paper's scenarios [./scenarios]");
+  figures->add_option("--measurements", line.figures.measurements,
+                      "Measurements for Figs. 5 and 6, a file that measure wrote");
   figures->callback([&line] {
     line.command = [&line](const Console& console) {
       return figures_command(line.figures, console);

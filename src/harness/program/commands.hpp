@@ -129,6 +129,7 @@ Status new_method_command(const std::vector<MethodEntry>& methods, const std::st
 struct FiguresOptions {
   std::filesystem::path directory;                ///< for the figures; made if missing
   std::filesystem::path scenarios = "scenarios";  ///< directory of the paper's scenarios
+  std::filesystem::path measurements;             ///< file of `measure`, for Figs. 5 and 6
 };
 
 /// Writes the paper's figures: data, gnuplot script, SVG and PNG of each, and `index.md`. Without gnuplot

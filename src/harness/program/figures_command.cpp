@@ -6,7 +6,10 @@
 #include "harness/figures/figure_writer.hpp"
 #include "harness/figures/gnuplot.hpp"
 #include "harness/figures/posture_figures.hpp"
+#include "harness/figures/sweep_figures.hpp"
 #include "harness/figures/tracking_figures.hpp"
+#include "harness/measuring/measurements.hpp"
+#include "harness/measuring/run_sweep.hpp"
 #include "harness/program/commands.hpp"
 
 namespace bqsa::harness {
@@ -41,11 +44,34 @@ void write_spatial_figures(const std::filesystem::path& scenarios, FigureWriter&
   writer.write(wall_configurations(judged_run(wall, "bqsa_projection"), judged_run(wall, "bqsa")));
 }
 
+constexpr std::uint64_t kMissRateSeed = 1;
+
+/// Figs. 5 and 6 and what belongs to them, of the sweeps that are there.
+void write_measured_figures(const Measurements& measurements, FigureWriter& writer) {
+  const TimesOrigin origin = times_origin(measurements.origin);
+  for (const Sweep& sweep : measurements.sweeps) {
+    if (is_of_steps(sweep.name)) {
+      writer.write(step_times(sweep, origin));
+      continue;
+    }
+    if (sweep.sizes.front().dimension == 2) {
+      writer.write(paper_times(sweep, origin));
+      writer.write(estimated_times(sweep, origin));
+    }
+    writer.write(fair_times(sweep, origin));
+    if (sweep.axis != SweepAxis::kPointPairs) continue;
+    writer.write(times_against_miss_rate(sweep, miss_rates(sweep, kMissRateSeed), origin));
+  }
+}
+
 }  // namespace
 
 Status figures_command(const FiguresOptions& options, const Console& console) {
   const std::filesystem::path gnuplot = find_gnuplot();
   FigureWriter writer(options.directory, gnuplot);
+  if (!options.measurements.empty()) {
+    write_measured_figures(read_measurements(options.measurements), writer);
+  }
   write_planar_figures(options.scenarios, writer);
   write_spatial_figures(options.scenarios, writer);
   writer.write_index("# Figures\n");
