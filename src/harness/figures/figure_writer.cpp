@@ -27,18 +27,19 @@ void FigureWriter::write(const Figure& figure) {
   for (const auto& [part, table] : figure.data) {
     const std::string file = data_file(figure.name, part);
     write_text_file(directory_ / file, table.text());
-    files += fmt::format("[{0}]({0}) ", file);
+    files += fmt::format("[{}]({}) ", part.empty() ? "csv" : part, file);
   }
   const fs::path script = directory_ / (figure.name + ".gp");
   write_text_file(script, gnuplot_script(figure));
-  files += fmt::format("[{0}.gp]({0}.gp)", figure.name);
+  files += fmt::format("[gp]({}.gp)", figure.name);
 
   std::error_code ignored;
   for (const char* format : {"svg", "png"}) {
     fs::remove(directory_ / fmt::format("{}.{}", figure.name, format), ignored);
-    if (!gnuplot_.empty()) files += fmt::format(" [{0}.{1}]({0}.{1})", figure.name, format);
+    if (!gnuplot_.empty()) files += fmt::format(" [{1}]({0}.{1})", figure.name, format);
   }
-  rows_.push_back(fmt::format("| {} | {} | {} |\n", figure.paper, figure.what, files));
+  rows_.push_back(
+      fmt::format("| {} | `{}` | {} | {} |\n", figure.paper, figure.name, figure.what, files));
   if (gnuplot_.empty()) return;
   const std::string complaint = run_gnuplot(gnuplot_, script);
   if (!complaint.empty()) {
@@ -47,7 +48,7 @@ void FigureWriter::write(const Figure& figure) {
 }
 
 void FigureWriter::write_index(const std::string& heading) const {
-  std::string text = heading + "\n| paper | what it shows | files |\n|---|---|---|\n";
+  std::string text = heading + "\n| paper | figure | what it shows | files |\n|---|---|---|---|\n";
   for (const std::string& row : rows_) text += row;
   write_text_file(directory_ / "index.md", text);
 }

@@ -7,6 +7,7 @@
 
 #include "harness/figures/figure.hpp"
 #include "harness/measuring/detector.hpp"
+#include "harness/methods.hpp"
 
 namespace bqsa::harness {
 namespace {
@@ -61,23 +62,22 @@ std::string detector_style(std::string_view name) {
   for (const DetectorStyle& style : kDetectorStyles) {
     if (style.name == name) return style_text(style.colour, style.dashes, style.marker);
   }
-  return numbered_style(0);
+  return style_text(kBlack, kSolid, 1);
 }
 
-std::string numbered_style(std::size_t index) {
+std::string method_style(std::string_view name) {
   constexpr std::array kColours{kBlack, kPurple, kRed, kOrange, kYellow, kGrey};
   constexpr std::array kDashes{kSolid, kDashed, kDotted, kDashDot};
   constexpr std::array kMarkers{7, 5, 9, 13, 11, 6, 4, 8, 12, 10, 2, 3, 1};
+  const auto place = std::find_if(methods().begin(), methods().end(),
+                                  [name](const MethodEntry& entry) { return entry.name == name; });
+  const auto index =
+      place == methods().end() ? 0 : static_cast<std::size_t>(place - methods().begin());
   return style_text(kColours.at(index % kColours.size()),
                     kDashes.at(index / kColours.size() % kDashes.size()),
                     kMarkers.at(index % kMarkers.size()));
 }
 
-std::string series_label(std::string_view name) {
-  for (const Detector& detector : detectors()) {
-    if (detector.name == name) return plain(detector.label);
-  }
-  return plain(name);
-}
+std::string detector_label(std::string_view name) { return plain(detector_named(name).label); }
 
 }  // namespace bqsa::harness

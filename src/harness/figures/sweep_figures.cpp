@@ -114,21 +114,26 @@ std::vector<std::string> by_last_time(const Sweep& sweep) {
   return names;
 }
 
-/// A curve and the bars of its intervals, as plot elements.
+/// The bars of its intervals and a curve, as plot elements.
 std::string curve_with_bars(const Sweep& sweep, const std::string& name, const std::string& style,
                             const std::string& label) {
   const std::string colour = style.substr(0, style.find(" linewidth"));
   return fmt::format(
-      "name . \".csv\" using \"{0}\":\"{1} [us]\" with linespoints {2} title \"{3}\", \\\n  \"\" "
-      "using "
-      "\"{0}\":\"{1} [us]\":\"{1} lower [us]\":\"{1} upper [us]\" with yerrorbars {4} linewidth "
-      "1.2 "
-      "dashtype solid pointtype 0 notitle",
+      "name . \".csv\" using \"{0}\":\"{1} [us]\":\"{1} lower [us]\":\"{1} upper [us]\" with "
+      "yerrorbars {4} "
+      "linewidth 1.2 dashtype solid pointtype 0 notitle, \\\n  \"\" using \"{0}\":\"{1} [us]\" "
+      "with "
+      "linespoints {2} title \"{3}\"",
       axis_name(sweep), name, style, label, colour);
 }
 
 /// Log-log axes, a key on the right in the order of the curves, all series.
-Figure all_series(Figure figure, const Sweep& sweep, const char* y_label, bool of_detectors) {
+Figure all_series(Figure figure, const Sweep& sweep) {
+  const bool of_detectors = !is_of_steps(sweep.name);
+  const char* y_label =
+      of_detectors ? "time of a pass over all nk pairs [µs]" : "time of a control step [µs]";
+  const std::string title = fmt::format("{}{}", in_space(sweep) ? "in space" : "in the plane",
+                                        of_detectors ? ", " + fixed_text(sweep) : "");
   const std::vector<std::string> names = by_last_time(sweep);
   figure.width = 1300;
   figure.data.emplace_back("", times_table(sweep, names));
@@ -136,13 +141,15 @@ Figure all_series(Figure figure, const Sweep& sweep, const char* y_label, bool o
   figure.drawing += fmt::format(
       "set xlabel \"{}\"\nset ylabel \"{}\"\nset key outside right center reverse Left font "
       "\",12\" "
-      "samplen 4 spacing 1.25\nset tmargin 3; set bmargin 4.5; set pointsize 0.9\n",
-      axis_label(sweep), y_label);
+      "samplen 4 spacing 1.25\nset tmargin 3; set bmargin 4.5; set pointsize 0.9\nset title "
+      "\"{}\"\nset xrange [{}:{}]\n",
+      axis_label(sweep), y_label, title, sweep.at(0), sweep.at(sweep.sizes.size() - 1));
   std::string elements;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const std::string style = of_detectors ? detector_style(names[i]) : numbered_style(i);
+    const std::string style = of_detectors ? detector_style(names[i]) : method_style(names[i]);
     elements += (i == 0 ? "" : ", \\\n  ") +
-                curve_with_bars(sweep, names[i], style, series_label(names[i]));
+                curve_with_bars(sweep, names[i], style,
+                                of_detectors ? detector_label(names[i]) : plain(names[i]));
   }
   figure.drawing += "plot " + elements + "\n";
   return figure;
@@ -203,8 +210,8 @@ plot name . ".csv" using "{axis}":"{points} [us]" with linespoints {points_style
                                 fmt::arg("points", kTestPoints), fmt::arg("quadratic", kPaperForm),
                                 fmt::arg("points_style", detector_style(kTestPoints)),
                                 fmt::arg("quadratic_style", detector_style(kPaperForm)),
-                                fmt::arg("points_label", series_label(kTestPoints)),
-                                fmt::arg("quadratic_label", series_label(kPaperForm)));
+                                fmt::arg("points_label", detector_label(kTestPoints)),
+                                fmt::arg("quadratic_label", detector_label(kPaperForm)));
   return figure;
 }
 
@@ -276,7 +283,7 @@ Figure estimated_times(const Sweep& sweep, const TimesOrigin& origin) {
       fixed_text(sweep), axis_label(sweep), sweep.at(0), sweep.at(sweep.sizes.size() - 1));
   std::string elements;
   for (const char* name : {kTestPoints, kPaperForm}) {
-    const std::string label = fmt::format("{}, exponent {}", series_label(name),
+    const std::string label = fmt::format("{}, exponent {}", detector_label(name),
                                           interval_text(time_exponent(sweep, name), 3));
     elements +=
         fmt::format("{}{}, \\\n  fit_{}(x) with lines linecolor \"#707070\" linewidth 1 notitle",
@@ -293,10 +300,10 @@ Figure fair_times(const Sweep& sweep, const TimesOrigin& origin) {
   return all_series(
       new_figure(fmt::format("{}_{}", figure_stem(sweep), in_space(sweep) ? "space" : "fair"),
                  paper_number(sweep),
-                 fmt::format("The same with all detectors, in {}, {}",
+                 fmt::format("Time of all detectors against {}, in {}, {}", axis_name(sweep),
                              in_space(sweep) ? "space" : "the plane", fixed_text(sweep)),
                  origin),
-      sweep, "time of a pass over all nk pairs [µs]", true);
+      sweep);
 }
 
 Figure step_times(const Sweep& sweep, const TimesOrigin& origin) {
@@ -306,7 +313,7 @@ Figure step_times(const Sweep& sweep, const TimesOrigin& origin) {
                  fmt::format("Time of a whole control step of every method against nk, {}",
                              space ? "in space" : "in the plane"),
                  origin),
-      sweep, "time of a control step [µs]", false);
+      sweep);
 }
 
 MissRates miss_rates(const Sweep& sweep, std::uint64_t seed) {
@@ -364,13 +371,14 @@ std::string miss_panel(const Sweep& sweep, const std::string& part, bool with_ke
         "(stringcolumn(\"detector\") eq \"{}\" ? column(\"time a pair [ns]\") : NaN)", name);
     const bool samples = detector_named(name).accuracy == Accuracy::kSampled;
     const std::string title =
-        with_key ? fmt::format("title \"{}\"", series_label(name)) : std::string("notitle");
+        with_key ? fmt::format("title \"{}\"", detector_label(name)) : std::string("notitle");
     elements +=
         fmt::format("{}name . \"_{}.csv\" using \"shown at\":{} with linespoints {} {}",
                     elements.empty() ? "" : ", \\\n  ", part, time, detector_style(name), title);
     if (!samples) continue;
     elements += fmt::format(
-        ", \\\n  \"\" using \"shown at\":{}:(sprintf(\"%g\", column(\"NM\"))) with labels font "
+        ", \\\n  \"\" using \"shown at\":{}:(column(\"NM\") < 10 ? \"\" : sprintf(\"%g\", "
+        "column(\"NM\"))) with labels font "
         "\",10\" "
         "offset {} notitle",
         time, name == kTestPoints ? "-2.2,0.3" : "2.2,-0.3");
@@ -399,10 +407,10 @@ Figure times_against_miss_rate(const Sweep& sweep, const MissRates& misses,
       "\"10^{{-2}}\" 1e-2, \"10^{{-1}}\" 1e-1, \"1\" 1)\n"
       "set arrow from {2:g},graph 0 to {2:g},graph 1 nohead linecolor \"#707070\" dashtype (2,4)\n"
       "set xlabel \"share of hits that are missed\"\n"
-      "set key at screen 0.745,0.9 left top reverse Left font \",12\" samplen 3 spacing 1.3\n",
-      kNoMisses / 2, kNoMisses, kNoMisses * 2.5);
+      "set key at screen 0.72,0.9 left top reverse Left font \",12\" samplen 2.5 spacing 1.3\n",
+      kNoMisses / 6, kNoMisses, kNoMisses * 4);
   const PanelGrid grid{
-      .rows = 1, .columns = 2, .left = 0.07, .right = 0.73, .bottom = 0.11, .gap_x = 0.03};
+      .rows = 1, .columns = 2, .left = 0.07, .right = 0.71, .bottom = 0.11, .gap_x = 0.03};
   figure.drawing +=
       grid.place(0, 0) +
       "set title \"links of any place and direction\"\nset ylabel \"time a pair [ns]\"\n" +
