@@ -61,7 +61,7 @@ void first_direction(const void* segment, const void* ball, ccd_vec3_t* directio
   if (ccdVec3Len2(direction) == 0) ccdFirstDirDefault(segment, ball, direction);
 }
 
-template <int (*kIntersect)(const void*, const void*, const ccd_t*)>
+template <int (*Intersect)(const void*, const void*, const ccd_t*)>
 class CcdDetection final : public Detection {
  public:
   explicit CcdDetection(const Workload& workload)
@@ -91,7 +91,7 @@ class CcdDetection final : public Detection {
     std::uint8_t* answer = hit.data();
     for (const Ball& ball : obstacles_) {
       for (std::size_t i = 0; i < links_a_pose_; ++i) {
-        *answer++ = kIntersect(&links[i], &ball, &ccd_) != 0;
+        *answer++ = Intersect(&links[i], &ball, &ccd_) != 0;
       }
     }
   }
@@ -103,7 +103,7 @@ class CcdDetection final : public Detection {
   ccd_t ccd_;
 };
 
-template <int (*kIntersect)(const void*, const void*, const ccd_t*)>
+template <int (*Intersect)(const void*, const void*, const ccd_t*)>
 Detector entry(std::string_view name, std::string_view label, std::string_view what) {
   return {.name = name,
           .label = label,
@@ -114,7 +114,7 @@ Detector entry(std::string_view name, std::string_view label, std::string_view w
           .multiplications =
               [](const WorkloadSize&) { return std::numeric_limits<double>::quiet_NaN(); },
           .prepare = [](const Workload& workload) -> std::unique_ptr<Detection> {
-            return std::make_unique<CcdDetection<kIntersect>>(workload);
+            return std::make_unique<CcdDetection<Intersect>>(workload);
           }};
 }
 

@@ -195,9 +195,9 @@ void BroadphaseDetection<DistanceQuery>::detect(int pose, std::span<std::uint8_t
   }
 }
 
-template <typename Detection, fcl::GJKSolverType kSolver>
+template <typename Detection, fcl::GJKSolverType Solver>
 std::unique_ptr<bqsa::harness::Detection> prepare(const Workload& workload) {
-  return std::make_unique<Detection>(workload, kSolver);
+  return std::make_unique<Detection>(workload, Solver);
 }
 
 Detector entry(std::string_view name, std::string_view label, std::string_view what,

@@ -49,9 +49,9 @@ struct Workload {
 
 /// Links are in a disk or ball, which they fill about evenly whatever their number; obstacles have their
 /// centres in its middle and semi-axes of 5 to 25 cm. About every eighth pair is a hit in the plane, and
-/// every eleventh in space, for every n and k, more or less if there are but few obstacles. (Such a crowd suits no
-/// broadphase, which can leave out free pairs only, and only those whose boxes are apart.) Poses are as
-/// many as make 1024 links, and at least 32.
+/// every eleventh in space, for every n and k, more or less if there are but few obstacles. (Such a crowd
+/// suits no broadphase, which can leave out free pairs only, and only those whose boxes are apart.)
+/// Poses are as many as make 1024 links, and at least 32.
 ///
 /// The same on all machines; poses and obstacles do not depend on the numbers of test points, and those
 /// of a smaller n or k are the first ones of a larger.

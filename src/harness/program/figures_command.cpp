@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <ostream>
+#include <sstream>
 
 #include "harness/figures/criteria_figures.hpp"
 #include "harness/figures/figure_writer.hpp"
@@ -11,6 +12,7 @@
 #include "harness/measuring/measurements.hpp"
 #include "harness/measuring/run_sweep.hpp"
 #include "harness/program/commands.hpp"
+#include "harness/results/provenance.hpp"
 
 namespace bqsa::harness {
 namespace {
@@ -64,17 +66,30 @@ void write_measured_figures(const Measurements& measurements, FigureWriter& writ
   }
 }
 
+/// Measures in processes of its own, as `measure` does; what that prints is left out.
+Measurements measure_now(const FiguresOptions& options, const Console& console) {
+  std::ostringstream printed;
+  MeasureOptions measure;
+  measure.out = options.directory / "measurements.json";
+  measure.command_line = options.command_line;
+  measure_command(measure, {printed, console.err, console.terminal});
+  return read_measurements(measure.out);
+}
+
 }  // namespace
 
 Status figures_command(const FiguresOptions& options, const Console& console) {
   const std::filesystem::path gnuplot = find_gnuplot();
   FigureWriter writer(options.directory, gnuplot);
-  if (!options.measurements.empty()) {
-    write_measured_figures(read_measurements(options.measurements), writer);
+  if (options.times) {
+    write_measured_figures(options.measurements.empty() ? measure_now(options, console)
+                                                        : read_measurements(options.measurements),
+                           writer);
   }
   write_planar_figures(options.scenarios, writer);
   write_spatial_figures(options.scenarios, writer);
-  writer.write_index("# Figures\n");
+  writer.write_index("# Figures\n\nMade by bqsa-bench " + version_text() +
+                     ". To change one, edit its script and run `gnuplot NAME.gp` here.\n");
   console.out << fmt::format("{}: wrote {} figures, see index.md\n", options.directory.string(),
                              writer.figures());
   if (gnuplot.empty()) {
