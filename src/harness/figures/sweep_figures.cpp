@@ -9,8 +9,8 @@
 #include <optional>
 #include <string_view>
 
-#include "harness/figures/panels.hpp"
 #include "harness/figures/series_style.hpp"
+#include "harness/figures/times_figure.hpp"
 #include "harness/measuring/detector.hpp"
 #include "harness/measuring/run_sweep.hpp"
 
@@ -18,7 +18,6 @@ namespace bqsa::harness {
 namespace {
 
 constexpr double kMicrosecond = 1e-6;
-constexpr double kNanosecond = 1e-9;
 
 constexpr const char* kTestPoints = "test_points";
 constexpr const char* kPaperForm = "bqsa_paper";
@@ -42,8 +41,6 @@ std::string fixed_text(const Sweep& sweep) {
              : fmt::format("NM = {}", sweep.sizes.front().point_pairs());
 }
 
-bool in_space(const Sweep& sweep) { return sweep.sizes.front().dimension == 3; }
-
 /// `fig05` along NM, `fig06` along nk.
 std::string figure_stem(const Sweep& sweep) {
   return sweep.axis == SweepAxis::kPointPairs ? "fig05" : "fig06";
@@ -52,22 +49,6 @@ std::string figure_stem(const Sweep& sweep) {
 std::string paper_number(const Sweep& sweep) {
   return sweep.axis == SweepAxis::kPointPairs ? "Fig. 5" : "Fig. 6";
 }
-
-Figure new_figure(std::string name, std::string paper, std::string what,
-                  const TimesOrigin& origin) {
-  Figure figure{.name = std::move(name), .paper = std::move(paper), .what = std::move(what)};
-  figure.provenance = origin.lines;
-  figure.drawing = fmt::format(
-      "set multiplot\nset label 99 \"{}\" at screen 0.012,0.016 left font \",9\" textcolor "
-      "\"#505050\"\n",
-      plain(origin.caption));
-  return figure;
-}
-
-constexpr const char* kLogAxes = R"gp(set logscale xy
-set format x "10^{%L}"
-set format y "10^{%L}"
-)gp";
 
 std::string time_column(std::string_view series) { return fmt::format("{} [us]", series); }
 
@@ -97,34 +78,26 @@ CsvTable times_table(const Sweep& sweep, const std::vector<std::string>& names) 
   return table;
 }
 
-/// Names of all series, those that take longest at the last size they were measured at first: the order
-/// of the curves at their ends.
-std::vector<std::string> by_last_time(const Sweep& sweep) {
-  std::vector<std::pair<double, std::string>> order;
-  for (const Series& series : sweep.series) {
-    for (std::size_t size = sweep.sizes.size(); size-- > 0;) {
-      if (!series.measured(size)) continue;
-      order.emplace_back(series.median(size), series.name);
-      break;
-    }
-  }
-  std::sort(order.rbegin(), order.rend());
-  std::vector<std::string> names;
-  for (const auto& [time, name] : order) names.push_back(name);
-  return names;
+/// Whether there are at least two processes at some size.
+bool has_intervals(const Sweep& sweep, const std::string& name) {
+  const auto& seconds = sweep.find(name)->seconds;
+  return std::any_of(seconds.begin(), seconds.end(),
+                     [](const std::vector<double>& processes) { return processes.size() > 1; });
 }
 
-/// The bars of its intervals and a curve, as plot elements.
+/// The bars of its intervals, if it has any, and a curve, as plot elements.
 std::string curve_with_bars(const Sweep& sweep, const std::string& name, const std::string& style,
                             const std::string& label) {
+  const std::string curve =
+      fmt::format("name . \".csv\" using \"{}\":\"{} [us]\" with linespoints {} title \"{}\"",
+                  axis_name(sweep), name, style, label);
+  if (!has_intervals(sweep, name)) return curve;
   const std::string colour = style.substr(0, style.find(" linewidth"));
   return fmt::format(
       "name . \".csv\" using \"{0}\":\"{1} [us]\":\"{1} lower [us]\":\"{1} upper [us]\" with "
-      "yerrorbars {4} "
-      "linewidth 1.2 dashtype solid pointtype 0 notitle, \\\n  \"\" using \"{0}\":\"{1} [us]\" "
-      "with "
-      "linespoints {2} title \"{3}\"",
-      axis_name(sweep), name, style, label, colour);
+      "yerrorbars "
+      "{2} linewidth 1.2 dashtype solid pointtype 0 notitle, \\\n  {3}",
+      axis_name(sweep), name, colour, curve);
 }
 
 /// Log-log axes, a key on the right in the order of the curves, all series.
@@ -137,7 +110,7 @@ Figure all_series(Figure figure, const Sweep& sweep) {
   const std::vector<std::string> names = by_last_time(sweep);
   figure.width = 1300;
   figure.data.emplace_back("", times_table(sweep, names));
-  figure.drawing += kLogAxes;
+  figure.drawing += log_axes();
   figure.drawing += fmt::format(
       "set xlabel \"{}\"\nset ylabel \"{}\"\nset key outside right center reverse Left font "
       "\",12\" "
@@ -164,25 +137,9 @@ std::string interval_text(const Estimate& estimate, int digits) {
 
 }  // namespace
 
-TimesOrigin times_origin(const MeasurementOrigin& origin) {
-  const std::string commit = fmt::format("{}{}", origin.build.commit.substr(0, 10),
-                                         origin.build.dirty ? ", modified" : "");
-  const std::string against = fmt::format("{}", fmt::join(origin.against, ", "));
-  TimesOrigin text;
-  text.caption =
-      fmt::format("bqsa-bench {}, commit {}, {}, {}, measured {} ({}){}", origin.build.version,
-                  commit, origin.build.compiler, origin.before.processor, origin.before.date,
-                  origin.effort, against.empty() ? "" : "; not publishable: " + against);
-  text.lines = {
-      text.caption,
-      fmt::format("flags {}; governor {}; load {:.2f} before, {:.2f} after; {}", origin.build.flags,
-                  origin.before.governor, origin.before.load, origin.load_after, origin.before.os)};
-  return text;
-}
-
 Figure paper_times(const Sweep& sweep, const TimesOrigin& origin) {
   const std::string axis = axis_name(sweep);
-  Figure figure = new_figure(
+  Figure figure = new_times_figure(
       fmt::format("{}_time_against_{}", figure_stem(sweep), axis == "NM" ? "nm" : "nk"),
       paper_number(sweep),
       fmt::format("Computation time against {}, {}, by the paper's protocol: mean of 100 passes by "
@@ -217,18 +174,21 @@ plot name . ".csv" using "{axis}":"{points} [us]" with linespoints {points_style
 
 namespace {
 
+/// Exponents are those of the larger half of the sizes, in which what any pass costs does not matter.
+std::size_t exponents_from(const Sweep& sweep) { return (sweep.sizes.size() - 1) / 2; }
+
 /// The fitted lines of both series as gnuplot functions, and the table of what was fitted.
 std::string fit_functions(const Sweep& sweep, CsvTable& table) {
   std::string text;
   for (const char* name : {kTestPoints, kPaperForm}) {
     const LinearTime line = linear_time(sweep, name);
-    const Estimate exponent = time_exponent(sweep, name);
-    table.add_row({std::string(name), line.intercept.value / kMicrosecond,
-                   line.intercept.interval.lower / kMicrosecond,
-                   line.intercept.interval.upper / kMicrosecond, line.slope.value / kMicrosecond,
-                   line.slope.interval.lower / kMicrosecond,
-                   line.slope.interval.upper / kMicrosecond, line.r_squared, exponent.value,
-                   exponent.interval.lower, exponent.interval.upper});
+    const Estimate exponent = time_exponent(sweep, name, exponents_from(sweep));
+    table.add_row(
+        {std::string(name), line.intercept.value / kMicrosecond,
+         line.intercept.interval.lower / kMicrosecond, line.intercept.interval.upper / kMicrosecond,
+         line.slope.value / kMicrosecond, line.slope.interval.lower / kMicrosecond,
+         line.slope.interval.upper / kMicrosecond, line.r_squared, sweep.at(exponents_from(sweep)),
+         exponent.value, exponent.interval.lower, exponent.interval.upper});
     text += fmt::format("fit_{}(x) = {:.6g} + {:.6g} * x    # [us]\n", name,
                         line.intercept.value / kMicrosecond, line.slope.value / kMicrosecond);
   }
@@ -260,7 +220,7 @@ std::string crossover_marks(const Sweep& sweep) {
 }  // namespace
 
 Figure estimated_times(const Sweep& sweep, const TimesOrigin& origin) {
-  Figure figure = new_figure(
+  Figure figure = new_times_figure(
       fmt::format("{}_estimated", figure_stem(sweep)), paper_number(sweep),
       fmt::format(
           "The same by our own estimator, {}: median over interleaved blocks, 95 % intervals "
@@ -269,22 +229,25 @@ Figure estimated_times(const Sweep& sweep, const TimesOrigin& origin) {
           sweep.axis == SweepAxis::kPointPairs ? ", predicted and measured crossover" : ""),
       origin);
   CsvTable fits({"series", "intercept [us]", "intercept lower [us]", "intercept upper [us]",
-                 "slope [us]", "slope lower [us]", "slope upper [us]", "r squared", "exponent",
-                 "exponent lower", "exponent upper"});
+                 "slope [us]", "slope lower [us]", "slope upper [us]", "r squared", "exponent from",
+                 "exponent", "exponent lower", "exponent upper"});
   const std::string functions = fit_functions(sweep, fits);
   figure.data.emplace_back("", times_table(sweep, {kTestPoints, kPaperForm}));
   figure.data.emplace_back("fits", fits);
-  figure.drawing += kLogAxes + functions + crossover_marks(sweep);
+  figure.drawing += log_axes() + functions + crossover_marks(sweep);
   figure.drawing += fmt::format(
       "set title \"{}\"\nset xlabel \"{}\"\nset ylabel \"time of a pass over all nk pairs [µs]\"\n"
       "set key bottom right reverse Left samplen 4 font \",13\"\nset tmargin 3; set bmargin "
       "4.5\nset xrange "
       "[{}:{}]\n",
-      fixed_text(sweep), axis_label(sweep), sweep.at(0), sweep.at(sweep.sizes.size() - 1));
+      fmt::format("{}; exponents from {} = {} on", fixed_text(sweep), axis_name(sweep),
+                  sweep.at(exponents_from(sweep))),
+      axis_label(sweep), sweep.at(0), sweep.at(sweep.sizes.size() - 1));
   std::string elements;
   for (const char* name : {kTestPoints, kPaperForm}) {
-    const std::string label = fmt::format("{}, exponent {}", detector_label(name),
-                                          interval_text(time_exponent(sweep, name), 3));
+    const std::string label =
+        fmt::format("{}, exponent {}", detector_label(name),
+                    interval_text(time_exponent(sweep, name, exponents_from(sweep)), 3));
     elements +=
         fmt::format("{}{}, \\\n  fit_{}(x) with lines linecolor \"#707070\" linewidth 1 notitle",
                     elements.empty() ? "" : ", \\\n  ",
@@ -298,129 +261,22 @@ Figure estimated_times(const Sweep& sweep, const TimesOrigin& origin) {
 
 Figure fair_times(const Sweep& sweep, const TimesOrigin& origin) {
   return all_series(
-      new_figure(fmt::format("{}_{}", figure_stem(sweep), in_space(sweep) ? "space" : "fair"),
-                 paper_number(sweep),
-                 fmt::format("Time of all detectors against {}, in {}, {}", axis_name(sweep),
-                             in_space(sweep) ? "space" : "the plane", fixed_text(sweep)),
-                 origin),
+      new_times_figure(fmt::format("{}_{}", figure_stem(sweep), in_space(sweep) ? "space" : "fair"),
+                       paper_number(sweep),
+                       fmt::format("Time of all detectors against {}, in {}, {}", axis_name(sweep),
+                                   in_space(sweep) ? "space" : "the plane", fixed_text(sweep)),
+                       origin),
       sweep);
 }
 
 Figure step_times(const Sweep& sweep, const TimesOrigin& origin) {
   const bool space = in_space(sweep);
   return all_series(
-      new_figure(space ? "step_against_nk_space" : "step_against_nk", "-",
-                 fmt::format("Time of a whole control step of every method against nk, {}",
-                             space ? "in space" : "in the plane"),
-                 origin),
+      new_times_figure(space ? "step_against_nk_space" : "step_against_nk", "-",
+                       fmt::format("Time of a whole control step of every method against nk, {}",
+                                   space ? "in space" : "in the plane"),
+                       origin),
       sweep);
-}
-
-MissRates miss_rates(const Sweep& sweep, std::uint64_t seed) {
-  const int dimension = sweep.sizes.front().dimension;
-  MissRates rates;
-  for (const Population population : {Population::kAnywhere, Population::kFirstContact}) {
-    const PairPopulation pairs(population, dimension, seed);
-    std::vector<MissRate>& found =
-        population == Population::kAnywhere ? rates.anywhere : rates.first_contact;
-    for (const Series& series : sweep.series) {
-      const Detector& detector = detector_named(series.name);
-      const bool samples = detector.accuracy == Accuracy::kSampled;
-      for (std::size_t size = 0; size < (samples ? sweep.sizes.size() : 1); ++size) {
-        found.push_back(pairs.ask(detector, sweep.sizes[size].test_points));
-      }
-    }
-  }
-  return rates;
-}
-
-namespace {
-
-constexpr double kNoMisses = 1e-5;  ///< where detectors stand that miss nothing
-
-/// The rows of a series one after the other, in order of the sweep's sizes.
-CsvTable miss_table(const Sweep& sweep, const std::vector<MissRate>& misses) {
-  CsvTable table({"detector", "NM", "time a pair [ns]", "miss rate", "lower", "upper", "shown at",
-                  "false alarm rate"});
-  for (const Series& series : sweep.series) {
-    for (const MissRate& miss : misses) {
-      if (miss.detector != series.name) continue;
-      for (std::size_t size = 0; size < sweep.sizes.size(); ++size) {
-        if (!(sweep.sizes[size].test_points.link == miss.size.test_points.link &&
-              sweep.sizes[size].test_points.obstacle == miss.size.test_points.obstacle) ||
-            !series.measured(size)) {
-          continue;
-        }
-        const Interval interval = miss.miss_interval();
-        table.add_row({series.name, sweep.at(size),
-                       series.median(size) / sweep.sizes[size].pairs() / kNanosecond,
-                       miss.miss_rate(), interval.lower, interval.upper,
-                       std::max(miss.miss_rate(), kNoMisses), miss.false_alarm_rate()});
-      }
-    }
-  }
-  return table;
-}
-
-/// Sampling detectors as curves through their NM, the others as points.
-std::string miss_panel(const Sweep& sweep, const std::string& part, bool with_key) {
-  std::string elements;
-  const std::vector<std::string> order = by_last_time(sweep);
-  for (const std::string& name : order) {
-    const std::string time = fmt::format(
-        "(stringcolumn(\"detector\") eq \"{}\" ? column(\"time a pair [ns]\") : NaN)", name);
-    const bool samples = detector_named(name).accuracy == Accuracy::kSampled;
-    const std::string title =
-        with_key ? fmt::format("title \"{}\"", detector_label(name)) : std::string("notitle");
-    elements +=
-        fmt::format("{}name . \"_{}.csv\" using \"shown at\":{} with linespoints {} {}",
-                    elements.empty() ? "" : ", \\\n  ", part, time, detector_style(name), title);
-    if (!samples) continue;
-    elements += fmt::format(
-        ", \\\n  \"\" using \"shown at\":{}:(column(\"NM\") < 10 ? \"\" : sprintf(\"%g\", "
-        "column(\"NM\"))) with labels font "
-        "\",10\" "
-        "offset {} notitle",
-        time, name == kTestPoints ? "-2.2,0.3" : "2.2,-0.3");
-  }
-  return "plot " + elements + "\n";
-}
-
-}  // namespace
-
-Figure times_against_miss_rate(const Sweep& sweep, const MissRates& misses,
-                               const TimesOrigin& origin) {
-  Figure figure = new_figure(
-      in_space(sweep) ? "time_against_miss_rate_space" : "time_against_miss_rate", "-",
-      fmt::format(
-          "Time a pair against the share of hits that are missed, all detectors in {}: test "
-          "points are labelled with NM",
-          in_space(sweep) ? "space" : "the plane"),
-      origin);
-  figure.width = 1300;
-  figure.height = 900;
-  figure.data.emplace_back("anywhere", miss_table(sweep, misses.anywhere));
-  figure.data.emplace_back("first_contact", miss_table(sweep, misses.first_contact));
-  figure.drawing += kLogAxes;
-  figure.drawing += fmt::format(
-      "set xrange [{0:g}:1.6]\nset xtics (\"0\" {1:g}, \"10^{{-4}}\" 1e-4, \"10^{{-3}}\" 1e-3, "
-      "\"10^{{-2}}\" 1e-2, \"10^{{-1}}\" 1e-1, \"1\" 1)\n"
-      "set arrow from {2:g},graph 0 to {2:g},graph 1 nohead linecolor \"#707070\" dashtype (2,4)\n"
-      "set xlabel \"share of hits that are missed\"\n"
-      "set key at screen 0.72,0.9 left top reverse Left font \",12\" samplen 2.5 spacing 1.3\n",
-      kNoMisses / 6, kNoMisses, kNoMisses * 4);
-  const PanelGrid grid{
-      .rows = 1, .columns = 2, .left = 0.07, .right = 0.71, .bottom = 0.11, .gap_x = 0.03};
-  figure.drawing +=
-      grid.place(0, 0) +
-      "set title \"links of any place and direction\"\nset ylabel \"time a pair [ns]\"\n" +
-      miss_panel(sweep, "anywhere", true);
-  figure.drawing +=
-      grid.place(0, 1) +
-      "set title \"links at the first contact\"\nunset ylabel\nset format y \"\"\nunset "
-      "label 99\n" +
-      miss_panel(sweep, "first_contact", false);
-  return figure;
 }
 
 }  // namespace bqsa::harness

@@ -3,22 +3,11 @@
 /// over sizes.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "harness/figures/figure.hpp"
-#include "harness/measuring/measurements.hpp"
-#include "harness/measuring/miss_rate.hpp"
+#include "harness/figures/times_figure.hpp"
+#include "harness/measuring/sweep.hpp"
 
 namespace bqsa::harness {
-
-/// Where times come from, as figures say it.
-struct TimesOrigin {
-  std::string caption;             ///< one line for the foot of the figure
-  std::vector<std::string> lines;  ///< for the head of the script
-};
-
-TimesOrigin times_origin(const MeasurementOrigin& origin);
 
 /// Figs. 5 and 6 as the paper draws them: linear axes, test points and BQSA in the paper's form, by the
 /// paper's protocol, the mean of 100 repeats. Sizes of which the mean was not taken are left out.
@@ -35,19 +24,5 @@ Figure fair_times(const Sweep& sweep, const TimesOrigin& origin);
 /// Whole control steps of all methods.
 /// @param sweep  `step_nk` or `space_step_nk`
 Figure step_times(const Sweep& sweep, const TimesOrigin& origin);
-
-/// What detectors miss of two populations.
-struct MissRates {
-  std::vector<MissRate> anywhere;
-  std::vector<MissRate> first_contact;
-};
-
-/// Of all detectors of a sweep along NM, and at each of its sizes of those that sample.
-MissRates miss_rates(const Sweep& sweep, std::uint64_t seed);
-
-/// Time a pair against the share of hits that are missed, for all detectors of a sweep along NM; those
-/// that miss none stand at a mark of their own.
-Figure times_against_miss_rate(const Sweep& sweep, const MissRates& misses,
-                               const TimesOrigin& origin);
 
 }  // namespace bqsa::harness

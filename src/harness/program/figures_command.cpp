@@ -6,6 +6,7 @@
 #include "harness/figures/criteria_figures.hpp"
 #include "harness/figures/figure_writer.hpp"
 #include "harness/figures/gnuplot.hpp"
+#include "harness/figures/miss_rate_figure.hpp"
 #include "harness/figures/posture_figures.hpp"
 #include "harness/figures/sweep_figures.hpp"
 #include "harness/figures/tracking_figures.hpp"
