@@ -105,8 +105,13 @@ Figure times_against_miss_rate(const Sweep& sweep, const MissRates& misses,
       "set xlabel \"share of hits that are missed\"\n"
       "set key at screen 0.72,0.9 left top reverse Left font \",12\" samplen 2.5 spacing 1.3\n",
       kNoMisses / 6, kNoMisses, kNoMisses * 4);
-  const PanelGrid grid{
-      .rows = 1, .columns = 2, .left = 0.07, .right = 0.71, .bottom = 0.11, .gap_x = 0.03};
+  const PanelGrid grid{.rows = 1,
+                       .columns = 2,
+                       .left = 0.07,
+                       .right = 0.71,
+                       .bottom = 0.11,
+                       .top = 0.92,
+                       .gap_x = 0.03};
   figure.drawing +=
       grid.place(0, 0) +
       "set title \"links of any place and direction\"\nset ylabel \"time a pair [ns]\"\n" +

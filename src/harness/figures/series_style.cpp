@@ -17,7 +17,7 @@ constexpr const char* kPurple = "#5a1fa6";
 constexpr const char* kRed = "#b3264d";
 constexpr const char* kOrange = "#e2662e";
 constexpr const char* kYellow = "#e3a21a";
-constexpr const char* kGrey = "#8f8f8f";
+constexpr const char* kGrey = "#b4b4b4";
 
 constexpr const char* kSolid = "solid";
 constexpr const char* kDashed = "(9,4)";

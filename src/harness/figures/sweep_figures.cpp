@@ -88,7 +88,7 @@ bool has_intervals(const Sweep& sweep, const std::string& name) {
 /// The bars of its intervals, if it has any, and a curve, as plot elements.
 std::string curve_with_bars(const Sweep& sweep, const std::string& name, const std::string& style,
                             const std::string& label) {
-  const std::string curve =
+  std::string curve =
       fmt::format("name . \".csv\" using \"{}\":\"{} [us]\" with linespoints {} title \"{}\"",
                   axis_name(sweep), name, style, label);
   if (!has_intervals(sweep, name)) return curve;
@@ -114,7 +114,7 @@ Figure all_series(Figure figure, const Sweep& sweep) {
   figure.drawing += fmt::format(
       "set xlabel \"{}\"\nset ylabel \"{}\"\nset key outside right center reverse Left font "
       "\",12\" "
-      "samplen 4 spacing 1.25\nset tmargin 3; set bmargin 4.5; set pointsize 0.9\nset title "
+      "samplen 4 spacing 1.25\nset tmargin 3.6; set bmargin 4.5; set pointsize 0.9\nset title "
       "\"{}\"\nset xrange [{}:{}]\n",
       axis_label(sweep), y_label, title, sweep.at(0), sweep.at(sweep.sizes.size() - 1));
   std::string elements;
@@ -135,6 +135,15 @@ std::string interval_text(const Estimate& estimate, int digits) {
                      estimate.interval.lower, digits, estimate.interval.upper, digits);
 }
 
+/// How many passes the means are of, as `100 passes` or `3 to 100 passes`.
+std::string passes_text(const Series& series) {
+  if (series.paper_passes.empty()) return "no pass";
+  const auto [least, most] =
+      std::minmax_element(series.paper_passes.begin(), series.paper_passes.end());
+  return *least == *most ? fmt::format("{} passes", *most)
+                         : fmt::format("{} to {} passes", *least, *most);
+}
+
 }  // namespace
 
 Figure paper_times(const Sweep& sweep, const TimesOrigin& origin) {
@@ -142,33 +151,39 @@ Figure paper_times(const Sweep& sweep, const TimesOrigin& origin) {
   Figure figure = new_times_figure(
       fmt::format("{}_time_against_{}", figure_stem(sweep), axis == "NM" ? "nm" : "nk"),
       paper_number(sweep),
-      fmt::format("Computation time against {}, {}, by the paper's protocol: mean of 100 passes by "
-                  "the wall clock",
-                  axis, fixed_text(sweep)),
+      fmt::format(
+          "Computation time against {}, {}, by the paper's protocol: mean of repeated passes "
+          "by the wall clock",
+          axis, fixed_text(sweep)),
       origin);
-  CsvTable table({axis, time_column(kTestPoints), time_column(kPaperForm)});
-  const std::vector<double>& points = sweep.find(kTestPoints)->paper_seconds;
-  const std::vector<double>& quadratic = sweep.find(kPaperForm)->paper_seconds;
-  for (std::size_t size = 0; size < std::min(points.size(), quadratic.size()); ++size) {
-    table.add_row({sweep.at(size), points[size] / kMicrosecond, quadratic[size] / kMicrosecond});
+  CsvTable table({axis, time_column(kTestPoints), time_column(kPaperForm), "test_points passes",
+                  "bqsa_paper passes"});
+  const Series& points = *sweep.find(kTestPoints);
+  const Series& quadratic = *sweep.find(kPaperForm);
+  const std::size_t sizes = std::min(points.paper_seconds.size(), quadratic.paper_seconds.size());
+  for (std::size_t size = 0; size < sizes; ++size) {
+    table.add_row({sweep.at(size), points.paper_seconds[size] / kMicrosecond,
+                   quadratic.paper_seconds[size] / kMicrosecond, points.paper_passes[size],
+                   quadratic.paper_passes[size]});
   }
   figure.data.emplace_back("", table);
-  figure.drawing += fmt::format(R"gp(set title "{title}"
+  figure.drawing +=
+      fmt::format(R"gp(set title "{title}"
 set xlabel "{axis_label}"
 set ylabel "time of a pass over all nk pairs [µs]"
 set key top left reverse Left samplen 4
 set xrange [0:*]; set yrange [0:*]
-set bmargin 4.5
+set tmargin 3.6; set bmargin 4.5
 plot name . ".csv" using "{axis}":"{points} [us]" with linespoints {points_style} title "{points_label}", \
   "" using "{axis}":"{quadratic} [us]" with linespoints {quadratic_style} title "{quadratic_label}"
 )gp",
-                                fmt::arg("title", fixed_text(sweep)), fmt::arg("axis", axis),
-                                fmt::arg("axis_label", axis_label(sweep)),
-                                fmt::arg("points", kTestPoints), fmt::arg("quadratic", kPaperForm),
-                                fmt::arg("points_style", detector_style(kTestPoints)),
-                                fmt::arg("quadratic_style", detector_style(kPaperForm)),
-                                fmt::arg("points_label", detector_label(kTestPoints)),
-                                fmt::arg("quadratic_label", detector_label(kPaperForm)));
+                  fmt::arg("title", fixed_text(sweep) + "; mean of " + passes_text(points)),
+                  fmt::arg("axis", axis), fmt::arg("axis_label", axis_label(sweep)),
+                  fmt::arg("points", kTestPoints), fmt::arg("quadratic", kPaperForm),
+                  fmt::arg("points_style", detector_style(kTestPoints)),
+                  fmt::arg("quadratic_style", detector_style(kPaperForm)),
+                  fmt::arg("points_label", detector_label(kTestPoints)),
+                  fmt::arg("quadratic_label", detector_label(kPaperForm)));
   return figure;
 }
 
@@ -237,7 +252,7 @@ Figure estimated_times(const Sweep& sweep, const TimesOrigin& origin) {
   figure.drawing += log_axes() + functions + crossover_marks(sweep);
   figure.drawing += fmt::format(
       "set title \"{}\"\nset xlabel \"{}\"\nset ylabel \"time of a pass over all nk pairs [µs]\"\n"
-      "set key bottom right reverse Left samplen 4 font \",13\"\nset tmargin 3; set bmargin "
+      "set key bottom right reverse Left samplen 4 font \",13\"\nset tmargin 3.6; set bmargin "
       "4.5\nset xrange "
       "[{}:{}]\n",
       fmt::format("{}; exponents from {} = {} on", fixed_text(sweep), axis_name(sweep),

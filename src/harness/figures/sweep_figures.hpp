@@ -10,7 +10,7 @@
 namespace bqsa::harness {
 
 /// Figs. 5 and 6 as the paper draws them: linear axes, test points and BQSA in the paper's form, by the
-/// paper's protocol, the mean of 100 repeats. Sizes of which the mean was not taken are left out.
+/// paper's protocol, the mean of 100 repeats, or as many as were made. Sizes of which none was taken are left out.
 /// @param sweep  `plane_nm` gives Fig. 5, `plane_nk` Fig. 6
 Figure paper_times(const Sweep& sweep, const TimesOrigin& origin);
 

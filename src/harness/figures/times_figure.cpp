@@ -60,6 +60,7 @@ std::vector<std::string> by_last_time(const Sweep& sweep) {
   }
   std::sort(order.rbegin(), order.rend());
   std::vector<std::string> names;
+  names.reserve(order.size());
   for (const auto& [time, name] : order) names.push_back(name);
   return names;
 }

@@ -49,6 +49,21 @@ void write_spatial_figures(const std::filesystem::path& scenarios, FigureWriter&
 
 constexpr std::uint64_t kMissRateSeed = 1;
 
+/// @throws InputError if the figures of a sweep of detectors in the plane cannot be made of it
+void require_paper_series(const Sweep& sweep) {
+  constexpr std::size_t kFewestSizes = 6;
+  for (const char* name : {"test_points", "bqsa_paper"}) {
+    const Series* series = sweep.find(name);
+    const bool complete = series != nullptr && sweep.sizes.size() >= kFewestSizes &&
+                          series->paper_seconds.size() == sweep.sizes.size() &&
+                          series->paper_passes.size() == sweep.sizes.size();
+    if (complete) continue;
+    throw InputError(fmt::format(
+        "measurements: {}: expected {} at {} sizes or more, by the paper's protocol too, got less",
+        sweep.name, name, kFewestSizes));
+  }
+}
+
 /// Figs. 5 and 6 and what belongs to them, of the sweeps that are there.
 void write_measured_figures(const Measurements& measurements, FigureWriter& writer) {
   const TimesOrigin origin = times_origin(measurements.origin);
@@ -58,6 +73,7 @@ void write_measured_figures(const Measurements& measurements, FigureWriter& writ
       continue;
     }
     if (sweep.sizes.front().dimension == 2) {
+      require_paper_series(sweep);
       writer.write(paper_times(sweep, origin));
       writer.write(estimated_times(sweep, origin));
     }

@@ -43,6 +43,7 @@ Sweep made_up_sweep(const std::string& name, SweepAxis axis, int dimension) {
         series.seconds.back().push_back(made_up_time(detector.name, size, process));
       }
       series.paper_seconds.push_back(made_up_time(detector.name, size, 1) * 1.5);
+      series.paper_passes.push_back(size.point_pairs() == 1000 ? 30 : 100);
     }
     sweep.series.push_back(series);
   }
@@ -80,6 +81,8 @@ TEST(SweepFigures, ShowThePaperProtocolOnLinearAxes) {
   EXPECT_EQ(table.text(3, "NM"), "1000");
   EXPECT_NEAR(table.number(3, "test_points [us]"), 3000, 1e-6);
   EXPECT_NEAR(table.number(3, "bqsa_paper [us]"), 37.5, 1e-6);
+  EXPECT_EQ(table.text(3, "test_points passes"), "30");
+  EXPECT_THAT(figure.drawing, HasSubstr("nk = 27; mean of 30 to 100 passes"));
   EXPECT_THAT(figure.drawing, Not(HasSubstr("logscale xy")));
 }
 
