@@ -110,18 +110,19 @@ plot name . "_spans_{part}.csv" using "from [s]":(-limit):"from [s]":"to [s]":(-
   name . "_{part}.csv" using "t [s]":(signed_log(column("Delta"))) with linespoints linestyle 1 linewidth 2.5 pointinterval {every} notitle, \
   "" using "t [s]":(signed_log(column("f(x_min)"))) with linespoints linestyle 2 pointinterval -{every} notitle, \
   "" using "t [s]":(signed_log(column("f(x_max)"))) with linespoints linestyle 4 pointinterval -{every} notitle, \
-  "" using "t [s]":(signed_log(column("f'(x_min) f'(x_max)"))) with linespoints linestyle 6 pointinterval -{every} notitle
+  "" using "t [s]":(signed_log(column("f'(x_min) f'(x_max)"))) with linespoints linestyle 5 linewidth 2.5 pointinterval -{every} notitle
 )gp";
 
 std::string legend(int width) {
-  return legend_row({{LegendEntry::kMarkedLine, "linestyle 1 linewidth 2.5", "Δ"},
-                     {LegendEntry::kMarkedLine, "linestyle 2", "f(x_{min})"},
-                     {LegendEntry::kMarkedLine, "linestyle 4", "f(x_{max})"},
-                     {LegendEntry::kMarkedLine, "linestyle 6", "f '(x_{min}) f '(x_{max})"},
-                     {LegendEntry::kArea, "\"#e4e4e4\"", "no collision 1"},
-                     {LegendEntry::kArea, "\"#ffffff\"", "no collision 2"},
-                     {LegendEntry::kArea, "\"#8a8a8a\"", "neither"}},
-                    width);
+  return legend_row(
+      {{LegendEntry::kMarkedLine, "linestyle 1 linewidth 2.5", "Δ"},
+       {LegendEntry::kMarkedLine, "linestyle 2", "f(x_{min})"},
+       {LegendEntry::kMarkedLine, "linestyle 4", "f(x_{max})"},
+       {LegendEntry::kMarkedLine, "linestyle 5 linewidth 2.5", "f '(x_{min}) f '(x_{max})"},
+       {LegendEntry::kArea, "\"#e4e4e4\"", "no collision 1"},
+       {LegendEntry::kArea, "\"#ffffff\"", "no collision 2"},
+       {LegendEntry::kArea, "\"#8a8a8a\"", "neither"}},
+      width);
 }
 
 std::string panel(const JudgedRun& run, const std::string& part, const PairCriteria& pair,

@@ -147,7 +147,7 @@ Figure plane_figure(Figure figure, const JudgedRun& first, const JudgedRun& seco
   figure.drawing += fmt::format(kPanelHead, fmt::arg("duration", first.problem().duration()),
                                 fmt::arg("key", key));
   const PanelGrid grid{
-      .rows = 1, .columns = 2, .left = 0.075, .right = 0.985, .bottom = 0.26, .top = 0.95};
+      .rows = 1, .columns = 2, .left = 0.085, .right = 0.985, .bottom = 0.26, .top = 0.95};
   for (const JudgedRun* run : {&first, &second}) {
     figure.drawing += grid.place(0, run == &first ? 0 : 1);
     figure.drawing +=
@@ -276,7 +276,7 @@ Figure wall_configurations(const JudgedRun& first, const JudgedRun& second) {
                        .what = "Configurations of the PUMA 560 beside the wall",
                        .width = 1300,
                        .height = 800},
-                      first, second, "74,62,1.15");
+                      first, second, "74,62,1.06");
 }
 
 }  // namespace bqsa::harness
