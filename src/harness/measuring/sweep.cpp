@@ -119,6 +119,13 @@ const Series* Sweep::find(std::string_view wanted) const {
   return found == series.end() ? nullptr : &*found;
 }
 
+Estimate time_of(const Sweep& sweep, std::string_view name, std::size_t size) {
+  const Series& series = series_of(sweep, name);
+  std::vector<double> logs;
+  for (const double seconds : series.seconds[size]) logs.push_back(std::log(seconds));
+  return exponential(over_processes(logs));
+}
+
 Estimate time_ratio(const Sweep& sweep, std::string_view a, std::string_view b, std::size_t size) {
   const std::vector<double>& a_times = series_of(sweep, a).seconds[size];
   const std::vector<double>& b_times = series_of(sweep, b).seconds[size];

@@ -65,6 +65,9 @@ struct Estimate {
   Interval interval;
 };
 
+/// Time at one size where it was measured: geometric mean over processes [s].
+Estimate time_of(const Sweep& sweep, std::string_view name, std::size_t size);
+
 /// Time of a over time of b at one size where both were measured: geometric mean over processes of the
 /// ratios within each.
 Estimate time_ratio(const Sweep& sweep, std::string_view a, std::string_view b, std::size_t size);

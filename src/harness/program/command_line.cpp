@@ -55,6 +55,7 @@ struct CommandLine {
   GenerateOptions generate;
   StepOptions step;
   ConformOptions conform;
+  FiguresOptions figures;
   MeasureOptions measure;
   CompareOptions compare;
   ReportOptions report;
@@ -298,6 +299,28 @@ void declare(CLI::App& app, CommandLine& line) {
     };
   });
 
+  CLI::App* figures =
+      add_command(app, "figures", "Draw the paper's figures from our own runs and measurements");
+  figures
+      ->add_option("--out,-o", line.figures.directory,
+                   "Directory for the figures: CSV, gnuplot script, SVG and PNG of each")
+      ->required();
+  figures->add_option("--scenarios", line.figures.scenarios,
+                      "Directory with the paper's scenarios [./scenarios]");
+  CLI::Option* measurements = figures->add_option(
+      "--measurements", line.figures.measurements,
+      "Measurements for the figures of times, a file that measure wrote [measured\n"
+      "now, about two minutes]");
+  figures
+      ->add_flag("!--without-times", line.figures.times,
+                 "Leave out the figures of times, and measure nothing")
+      ->excludes(measurements);
+  figures->callback([&line] {
+    line.command = [&line](const Console& console) {
+      return figures_command(line.figures, console);
+    };
+  });
+
   CLI::App* new_method = add_command(
       app, "new-method", "Write a method that works, with its test, into the source tree");
   new_method->add_option("NAME", line.method_name, "Its name, [a-z][a-z0-9_]*")->required();
@@ -328,6 +351,7 @@ int run_program(int argc, const char* const* argv, const Console& console,
     CommandLine line;
     line.methods = add_methods(added);
     line.run.command_line = command_line_text(argc, argv);
+    line.figures.command_line = line.run.command_line;
     line.measure.command_line = line.run.command_line;
     declare(app, line);
     try {

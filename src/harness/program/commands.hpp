@@ -154,6 +154,21 @@ Status generate_command(const GenerateOptions& options, const Console& console);
 Status new_method_command(const std::vector<MethodEntry>& methods, const std::string& name,
                           const std::filesystem::path& tree, const Console& console);
 
+struct FiguresOptions {
+  std::filesystem::path directory;                ///< for the figures; made if missing
+  std::filesystem::path scenarios = "scenarios";  ///< directory of the paper's scenarios
+  std::filesystem::path measurements;  ///< file of `measure`; empty: measured now, quickly
+  bool times = true;                   ///< with the figures of times
+  std::string command_line;            ///< as recorded with what is measured
+};
+
+/// Writes the paper's figures: data, gnuplot script, SVG and PNG of each, and `index.md`; what was measured
+/// for them goes into `measurements.json` beside them. Without gnuplot the pictures are left out, and
+/// that is said.
+/// @throws InputError for scenarios or measurements that cannot be used, or a directory that cannot be
+///   written to
+Status figures_command(const FiguresOptions& options, const Console& console);
+
 /// Says of each scenario file, those in directories included, whether it can be used.
 /// @throws InputError for a directory that cannot be listed or holds none
 Status validate_command(const std::vector<std::filesystem::path>& named, const Console& console);

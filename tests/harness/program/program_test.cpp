@@ -46,7 +46,8 @@ TEST_P(Everywhere, UnknownOptionsAreRefused) {
 
 INSTANTIATE_TEST_SUITE_P(Program, Everywhere,
                          ::testing::Values("program", "list", "run", "show", "step", "conform",
-                                           "judge", "generate", "new-method", "validate"),
+                                           "judge", "generate", "figures", "new-method",
+                                           "validate"),
                          [](const auto& tested) {
                            return tested.param == "new-method" ? "new_method" : tested.param;
                          });
