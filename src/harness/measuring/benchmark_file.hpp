@@ -26,7 +26,7 @@ struct BenchmarkFile {
 ///   benchmark with times, or an error in one
 BenchmarkFile read_benchmark_file(const std::filesystem::path& file);
 
-/// The JSON of a file.
+/// The JSON of a file, with null for the NaN and Infinity that Google Benchmark writes.
 /// @throws InputError naming the file, and the line where it is not JSON
 nlohmann::json read_json(const std::filesystem::path& file);
 

@@ -8,6 +8,10 @@
 
 namespace bqsa::harness {
 
+std::string load_text(double load, int cores, std::string_view when) {
+  return fmt::format("load average {:.2g} on {} cores {} measuring", load, cores, when);
+}
+
 std::vector<std::string> reasons_against_measuring(const BuildInfo& build,
                                                    const MachineState& before,
                                                    const MachineState& after) {
@@ -16,12 +20,10 @@ std::vector<std::string> reasons_against_measuring(const BuildInfo& build,
   std::vector<std::string> reasons = reasons_against_times(build, idle);
   constexpr double kOurOwn = 1;
   if (before.load > kMostLoadPerCore * before.cores) {
-    reasons.push_back(
-        fmt::format("load average {:.2g} on {} cores before measuring", before.load, before.cores));
+    reasons.push_back(load_text(before.load, before.cores, "before"));
   }
   if (after.load > kMostLoadPerCore * after.cores + kOurOwn) {
-    reasons.push_back(
-        fmt::format("load average {:.2g} on {} cores after measuring", after.load, after.cores));
+    reasons.push_back(load_text(after.load, after.cores, "after"));
   }
   return reasons;
 }

@@ -15,6 +15,9 @@ namespace bqsa::harness {
 /// on are too much, before measuring, and after it beyond the one core that was measuring itself.
 inline constexpr double kMostLoadPerCore = 0.5;
 
+/// As a reason against times: `load average 2.1 on 4 cores before measuring`.
+std::string load_text(double load, int cores, std::string_view when);
+
 /// Why times are only indicative; empty if they can be published.
 std::vector<std::string> reasons_against_measuring(const BuildInfo& build,
                                                    const MachineState& before,

@@ -233,7 +233,9 @@ void declare(CLI::App& app, CommandLine& line) {
                    "File for the measurements, Google Benchmark's JSON")
       ->required();
   CLI::Option* quick = measure->add_flag("--quick", line.quick, "One or two minutes [the default]");
-  measure->add_flag("--full", line.measure.full, "More, longer blocks and more processes: an hour")
+  measure
+      ->add_flag("--full", line.measure.full,
+                 "More, longer blocks and more processes: a quarter of an hour")
       ->excludes(quick);
   measure
       ->add_option("--sweep", line.measure.sweeps,
