@@ -7,7 +7,7 @@
   tools/instruction_guard.py --self-test   the guard itself: A against A passes, 5 % more work fails
 
 Instructions are counted by valgrind's callgrind, for two numbers of repetitions; the difference is
-free of what comes before the first. Counts repeat exactly as long as compiler, flags and libraries are
+free of what comes before the first. Counts repeat to a dozen as long as compiler, flags and libraries are
 the same, and are compared only then. Needs the release build with its benchmarks
 (docs/guarding.md). Status: 0 nothing to do, 1 a count has changed, 2 nothing could be measured.
 """
