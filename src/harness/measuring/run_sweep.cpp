@@ -7,7 +7,6 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "harness/input_error.hpp"
@@ -29,6 +28,10 @@ constexpr std::array kBystanders{1, 2, 5, 10, 20, 50, 100, 200, 500, 1000};
 
 constexpr std::uint64_t kWorkloadSeed = 1;
 constexpr int kPaperPasses = 100;
+
+bool is_in_the_papers_figures(std::string_view detector) {
+  return detector == "test_points" || detector == "bqsa_paper" || detector == "bqsa_projections";
+}
 
 double wall_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -62,21 +65,12 @@ class Passes {
   std::uint64_t hits_ = 0;  ///< so that the answers are consumed
 };
 
-struct PaperMean {
-  double seconds;  ///< of a pass [s]
-  int passes;
-};
-
-PaperMean paper_mean(Passes& passes, double budget_s) {
-  double start = wall_seconds();
+/// Mean of the paper's 100 single passes, after one to get warm [s].
+double paper_mean(Passes& passes) {
   passes.make(1);
-  const double one = wall_seconds() - start;
-  constexpr double kFewest = 3;
-  const int count =
-      static_cast<int>(std::clamp(budget_s / std::max(one, 1e-9), kFewest, double{kPaperPasses}));
-  start = wall_seconds();
-  passes.make(count);
-  return {(wall_seconds() - start) / count, count};
+  const double start = wall_seconds();
+  passes.make(kPaperPasses);
+  return (wall_seconds() - start) / kPaperPasses;
 }
 
 void verify(const Workload& workload, const std::vector<const Detector*>& detectors, int pairs) {
@@ -132,9 +126,9 @@ void sweep_detectors(int dimension, const SweepSettings& settings, const SweepPr
     add(run_contest(contestants, settings.contest), sweep);
     if (!settings.paper_protocol) continue;
     for (std::size_t c = 0; c < passes.size(); ++c) {
-      const PaperMean mean = paper_mean(passes[c], settings.paper_budget_s);
-      sweep.series[c].paper_seconds.push_back(mean.seconds);
-      sweep.series[c].paper_passes.push_back(mean.passes);
+      if (!is_in_the_papers_figures(passes[c].name())) continue;
+      sweep.series[c].paper_seconds.push_back(paper_mean(passes[c]));
+      sweep.series[c].paper_passes.push_back(kPaperPasses);
     }
   }
 }
@@ -194,7 +188,6 @@ SweepSettings quick_sweeps() { return {}; }
 
 SweepSettings full_sweeps() {
   return {.contest = {.rounds = 50, .block_s = 5e-4, .budget_s = 0.1, .fewest_rounds = 9},
-          .paper_budget_s = std::numeric_limits<double>::infinity(),
           .verified_pairs = 50'000};
 }
 

@@ -17,7 +17,6 @@ namespace {
 /// As little work as there can be: the times are worth nothing.
 SweepSettings least() {
   return {.contest = {.rounds = 1, .block_s = 1e-9, .budget_s = 0, .fewest_rounds = 1},
-          .paper_budget_s = 0,
           .verified_pairs = 1000};
 }
 
@@ -42,10 +41,11 @@ TEST(RunSweep, MeasuresEveryDetectorAtEveryNm) {
   for (const Detector& detector : detectors()) {
     EXPECT_EQ(sweep.find(detector.name) != nullptr, detector.in_plane) << detector.name;
   }
-  for (const Series& series : sweep.series) {
-    EXPECT_EQ(series.paper_seconds.size(), 13u);
-    EXPECT_THAT(series.paper_passes, testing::Each(3));
+  for (const char* of_the_papers_figures : {"test_points", "bqsa_paper"}) {
+    EXPECT_EQ(sweep.find(of_the_papers_figures)->paper_seconds.size(), 13u);
+    EXPECT_THAT(sweep.find(of_the_papers_figures)->paper_passes, testing::Each(100));
   }
+  EXPECT_TRUE(sweep.find("bqsa")->paper_seconds.empty());
 }
 
 TEST(RunSweep, MeasuresEveryReactiveMethodAmongBystanders) {
