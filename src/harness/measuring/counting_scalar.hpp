@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-namespace bqsa::test_support {
+namespace bqsa::harness {
 
 class CountingScalar {
  public:
@@ -49,13 +49,13 @@ class CountingScalar {
   inline static std::uint64_t divisions_ = 0;
 };
 
-}  // namespace bqsa::test_support
+}  // namespace bqsa::harness
 
 template <>
-struct Eigen::NumTraits<bqsa::test_support::CountingScalar> : Eigen::NumTraits<double> {
-  using Real = bqsa::test_support::CountingScalar;
-  using NonInteger = bqsa::test_support::CountingScalar;
-  using Nested = bqsa::test_support::CountingScalar;
+struct Eigen::NumTraits<bqsa::harness::CountingScalar> : Eigen::NumTraits<double> {
+  using Real = bqsa::harness::CountingScalar;
+  using NonInteger = bqsa::harness::CountingScalar;
+  using Nested = bqsa::harness::CountingScalar;
   using Literal = double;
   enum { RequireInitialization = 1 };
 };
