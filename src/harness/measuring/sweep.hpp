@@ -21,21 +21,32 @@ enum class SweepAxis {
   kPairs,       ///< nk, links times obstacles
 };
 
+/// That of a sweep by its name: `..._nm` or `..._nk`.
+SweepAxis axis_of(std::string_view sweep_name);
+
 /// One contestant's times.
 struct Series {
   std::string name;  ///< of the detector or method
 
   /// Of one pass over all nk pairs, or one control step, [size][process]: the median over the
-  /// process's blocks, processor time of the thread [s].
+  /// process's blocks, processor time of the thread [s]. At a size that was left out for this series
+  /// there is no process.
   std::vector<std::vector<double>> seconds;
 
   /// The paper's protocol: mean of 100 single passes by the wall clock, in the first process, [size];
-  /// empty if it was not measured [s].
+  /// empty if it was not measured, not a number at sizes left out [s].
   std::vector<double> paper_seconds;
+  std::vector<int> paper_passes =
+      {};  ///< how many they were: fewer where 100 took too long, [size]
+
+  bool measured(std::size_t size) const { return !seconds[size].empty(); }
+
+  /// The median over processes at a size that was measured [s].
+  double median(std::size_t size) const;
 };
 
 struct Sweep {
-  std::string name;  ///< `plane_nm`, `plane_nk`, `space_nm`, `space_nk`, `step_nk`
+  std::string name;  ///< one of sweep_names() (run_sweep.hpp)
   SweepAxis axis;
   std::vector<WorkloadSize> sizes;
   std::vector<Series> series;
@@ -47,19 +58,22 @@ struct Sweep {
 };
 
 /// A number with its 95 % interval over processes (Student's t of the processes' own estimates; needs
-/// at least two, else the interval is the whole range).
+/// at least two, else the interval is the whole range). All that follows needs the series named to be
+/// there, and those of a pair to come from the same processes.
 struct Estimate {
   double value;
   Interval interval;
 };
 
-/// Time of a over time of b at one size: geometric mean over processes of the ratios within each.
+/// Time of a over time of b at one size where both were measured: geometric mean over processes of the
+/// ratios within each.
 Estimate time_ratio(const Sweep& sweep, std::string_view a, std::string_view b, std::size_t size);
 
-/// The slope of log(time) against log(axis) from the size `from` on.
+/// The slope of log(time) against log(axis) from the size `from` on, at least three sizes measured.
 Estimate time_exponent(const Sweep& sweep, std::string_view name, std::size_t from = 0);
 
-/// time = intercept + slope x axis, weighted by 1/time², so that small sizes count as much as large.
+/// time = intercept + slope x axis, weighted by 1/time², so that small sizes count as much as large. At
+/// least three sizes measured.
 struct LinearTime {
   Estimate intercept;  ///< [s]
   Estimate slope;      ///< [s per unit of the axis]
@@ -67,9 +81,10 @@ struct LinearTime {
 };
 LinearTime linear_time(const Sweep& sweep, std::string_view name);
 
-/// Where a, growing along the axis, starts to take longer than b, by log-linear interpolation between
-/// sizes. Nothing if in some process it does nowhere; below the first size that size is the upper
-/// bound, and the value 0.
+/// Where a, growing along the axis, starts to take longer than b and goes on to: log(ratio) linear in
+/// log(axis) between the sizes at which both were measured; geometric mean over processes. Nothing if
+/// in some process b still takes as long at the last size. If in some process a takes longer from the
+/// first size on, the value is 0, and the upper bound that size or the largest crossover found.
 std::optional<Estimate> crossover(const Sweep& sweep, std::string_view a, std::string_view b);
 
 }  // namespace bqsa::harness

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <sys/utsname.h>
 
+#include <cstdlib>
 #include <ctime>
 #include <fstream>
 #include <limits>
@@ -28,6 +29,13 @@ std::string value_in(const char* file, std::string_view key, std::string_view se
     return line.substr(begin, line.find_last_not_of(separators) - begin + 1);
   }
   return kUnknown;
+}
+
+/// Not a number if it is none.
+double number_in(const std::string& text) {
+  char* end = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  return end == text.c_str() ? std::numeric_limits<double>::quiet_NaN() : number;
 }
 
 std::string operating_system() {
@@ -68,6 +76,7 @@ MachineState machine_state() {
   state.processor = value_in("/proc/cpuinfo", "model name", "\t :");
   state.cores = static_cast<int>(std::thread::hardware_concurrency());
   state.governor = value_in("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor", "", " ");
+  state.mhz = number_in(value_in("/proc/cpuinfo", "cpu MHz", "\t :"));
   state.load = std::numeric_limits<double>::quiet_NaN();
   getloadavg(&state.load, 1);
   state.os = operating_system();

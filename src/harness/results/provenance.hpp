@@ -26,6 +26,7 @@ struct MachineState {
   std::string processor;
   int cores = 0;
   std::string governor;  ///< frequency governor of the first core
+  double mhz = 0;        ///< of the first core, at that moment; not a number if unknown
   double load = 0;       ///< load average of the last minute, not a number if unknown
   std::string os;
   std::string date;  ///< UTC, ISO 8601, to the second

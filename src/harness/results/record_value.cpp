@@ -9,14 +9,14 @@
 
 namespace bqsa::harness {
 
-RecordValue::RecordValue(const nlohmann::json& json, std::string path)
-    : json_(json), path_(std::move(path)) {}
+RecordValue::RecordValue(const nlohmann::json& json, std::string path, const char* kind)
+    : json_(json), path_(std::move(path)), kind_(kind) {}
 
 RecordValue RecordValue::operator[](const char* key) const {
   if (!json_.is_object()) refuse("expected an object");
   const auto found = json_.find(key);
   RecordValue value(found == json_.end() ? json_ : *found,
-                    path_.empty() ? key : fmt::format("{}.{}", path_, key));
+                    path_.empty() ? key : fmt::format("{}.{}", path_, key), kind_);
   if (found == json_.end()) value.refuse("missing");
   return value;
 }
@@ -58,14 +58,24 @@ std::vector<RecordValue> RecordValue::list() const {
   if (!json_.is_array()) refuse("expected a list");
   std::vector<RecordValue> values;
   for (std::size_t i = 0; i < json_.size(); ++i) {
-    values.emplace_back(json_[i], fmt::format("{}[{}]", path_, i));
+    values.emplace_back(json_[i], fmt::format("{}[{}]", path_, i), kind_);
+  }
+  return values;
+}
+
+std::vector<std::pair<std::string, RecordValue>> RecordValue::members() const {
+  if (!json_.is_object()) refuse("expected an object");
+  std::vector<std::pair<std::string, RecordValue>> values;
+  for (const auto& [key, value] : json_.items()) {
+    values.emplace_back(printable(key),
+                        RecordValue(value, fmt::format("{}.{}", path_, key), kind_));
   }
   return values;
 }
 
 void RecordValue::refuse(std::string_view why) const {
-  throw InputError(path_.empty() ? fmt::format("not a run record: {}", why)
-                                 : fmt::format("not a run record: {}: {}", path_, why));
+  throw InputError(path_.empty() ? fmt::format("not {}: {}", kind_, why)
+                                 : fmt::format("not {}: {}: {}", kind_, path_, why));
 }
 
 std::string printable(std::string_view text) {

@@ -6,6 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "harness/input_error.hpp"
@@ -16,7 +17,9 @@ namespace bqsa::harness {
 /// throws InputError `not a run record: <key>: ...` if the record is not as documented.
 class RecordValue {
  public:
-  explicit RecordValue(const nlohmann::json& json, std::string path = {});
+  /// @param kind  of record, as in the messages
+  explicit RecordValue(const nlohmann::json& json, std::string path = {},
+                       const char* kind = "a run record");
 
   RecordValue operator[](const char* key) const;
 
@@ -30,12 +33,14 @@ class RecordValue {
   double number() const;        ///< not a number for null
   std::string text() const;     ///< printable(), safe for a terminal
   std::vector<RecordValue> list() const;
+  std::vector<std::pair<std::string, RecordValue>> members() const;  ///< of an object
 
   [[noreturn]] void refuse(std::string_view why) const;
 
  private:
   const nlohmann::json& json_;
   std::string path_;
+  const char* kind_;
 };
 
 /// Text with a space for every control character of ASCII and Unicode.

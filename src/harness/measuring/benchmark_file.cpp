@@ -1,0 +1,99 @@
+#include "harness/measuring/benchmark_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "harness/results/record_value.hpp"
+#include "harness/text_file.hpp"
+
+namespace bqsa::harness {
+namespace {
+
+constexpr std::size_t kMostBytes = std::size_t{256} << 20U;
+constexpr const char* kKind = "Google Benchmark's JSON";
+
+double seconds_in(const RecordValue& unit) {
+  static constexpr std::array<std::pair<std::string_view, double>, 4> kUnits{
+      {{"ns", 1e-9}, {"us", 1e-6}, {"ms", 1e-3}, {"s", 1}}};
+  const std::string name = unit.text();
+  for (const auto& [known, seconds] : kUnits) {
+    if (name == known) return seconds;
+  }
+  unit.refuse(fmt::format("expected ns, us, ms or s, got {}", excerpt(name)));
+}
+
+/// What the file says of the processor: ours name it, others count its cores and caches.
+std::string machine_text(const RecordValue& context) {
+  if (context.has("bqsa")) return context["bqsa"]["processor"].text();
+  std::string text = fmt::format("{} cores", context["num_cpus"].integer());
+  if (!context.has("caches")) return text;
+  for (const RecordValue& cache : context["caches"].list()) {
+    text += fmt::format(", L{} {} B", cache["level"].integer(), cache["size"].whole());
+  }
+  return text;
+}
+
+std::vector<std::string> reasons_against(const RecordValue& context) {
+  std::vector<std::string> reasons;
+  if (context.has("bqsa")) {
+    for (const RecordValue& reason : context["bqsa"]["against"].list()) {
+      reasons.push_back(reason.text());
+    }
+  } else if (context.has("library_build_type") && context["library_build_type"].text() == "debug") {
+    reasons.emplace_back("built with a debug build of Google Benchmark");
+  }
+  return reasons;
+}
+
+BenchmarkFile read(const RecordValue& json) {
+  const RecordValue context = json["context"];
+  BenchmarkFile file{.benchmarks = {},
+                     .machine = machine_text(context),
+                     .compiler = context.has("bqsa") ? context["bqsa"]["compiler"].text() : "",
+                     .against = reasons_against(context)};
+  std::map<std::string, std::size_t> places;
+  for (const RecordValue& entry : json["benchmarks"].list()) {
+    if (entry.has("error_occurred") && entry["error_occurred"].boolean()) {
+      entry.refuse(fmt::format("{} ended with an error", entry["name"].text()));
+    }
+    if (entry.has("run_type") && entry["run_type"].text() != "iteration") continue;
+    const std::string name = entry["name"].text();
+    const double seconds = entry["cpu_time"].number() * seconds_in(entry["time_unit"]);
+    if (!(seconds > 0)) entry["cpu_time"].refuse("expected a positive number");
+    const auto [place, first] = places.try_emplace(name, file.benchmarks.size());
+    if (first) file.benchmarks.push_back({name, {}});
+    file.benchmarks[place->second].seconds.push_back(seconds);
+  }
+  if (file.benchmarks.empty()) json["benchmarks"].refuse("expected a benchmark with times");
+  return file;
+}
+
+}  // namespace
+
+nlohmann::json read_json(const std::filesystem::path& file) {
+  const std::string text = read_text_file(file, kMostBytes);
+  try {
+    return nlohmann::json::parse(text);
+  } catch (const nlohmann::json::parse_error& error) {
+    const std::size_t end = std::min(error.byte, text.size());
+    const auto line =
+        1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
+    throw InputError(fmt::format("{}:{}: not JSON, or cut short", file.string(), line));
+  }
+}
+
+BenchmarkFile read_benchmark_file(const std::filesystem::path& file) {
+  const nlohmann::json json = read_json(file);
+  try {
+    return read(RecordValue(json, "", kKind));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
+}  // namespace bqsa::harness

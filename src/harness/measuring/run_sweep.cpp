@@ -1,0 +1,213 @@
+#include "harness/measuring/run_sweep.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "harness/input_error.hpp"
+#include "harness/measuring/bystanders.hpp"
+#include "harness/measuring/detector.hpp"
+#include "harness/measuring/verify_detector.hpp"
+#include "harness/methods.hpp"
+
+namespace bqsa::harness {
+namespace {
+
+constexpr std::array<std::string_view, 6> kSweepNames{"plane_nm", "plane_nk", "space_nm",
+                                                      "space_nk", "step_nk",  "space_step_nk"};
+
+constexpr std::array kSteps{1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10'000};
+constexpr int kPairs = 27;        ///< nk where NM varies (paper, Fig. 5)
+constexpr int kPointPairs = 600;  ///< NM where nk varies (Fig. 6)
+constexpr std::array kBystanders{1, 2, 5, 10, 20, 50, 100, 200, 500, 1000};
+
+constexpr std::uint64_t kWorkloadSeed = 1;
+constexpr int kPaperPasses = 100;
+
+double wall_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// A detector at work, pose after pose.
+class Passes {
+ public:
+  Passes(const Detector& detector, const Workload& workload)
+      : name_(detector.name),
+        detection_(detector.prepare(workload)),
+        poses_(static_cast<int>(workload.poses.size())),
+        hit_(static_cast<std::size_t>(workload.size.pairs())) {}
+
+  void make(int passes) {
+    for (int i = 0; i < passes; ++i) {
+      detection_->detect(pose_, hit_);
+      hits_ += hit_.back();
+      pose_ = pose_ + 1 < poses_ ? pose_ + 1 : 0;
+    }
+  }
+
+  const std::string& name() const { return name_; }
+
+ private:
+  std::string name_;
+  std::unique_ptr<Detection> detection_;
+  int poses_;
+  int pose_ = 0;
+  std::vector<std::uint8_t> hit_;
+  std::uint64_t hits_ = 0;  ///< so that the answers are consumed
+};
+
+struct PaperMean {
+  double seconds;  ///< of a pass [s]
+  int passes;
+};
+
+PaperMean paper_mean(Passes& passes, double budget_s) {
+  double start = wall_seconds();
+  passes.make(1);
+  const double one = wall_seconds() - start;
+  constexpr double kFewest = 3;
+  const int count =
+      static_cast<int>(std::clamp(budget_s / std::max(one, 1e-9), kFewest, double{kPaperPasses}));
+  start = wall_seconds();
+  passes.make(count);
+  return {(wall_seconds() - start) / count, count};
+}
+
+void verify(const Workload& workload, const std::vector<const Detector*>& detectors, int pairs) {
+  const ReferenceAnswers reference = reference_answers(workload, pairs);
+  for (const Detector* detector : detectors) {
+    const std::string broken = broken_promise(*detector, verify_detector(*detector, reference));
+    if (broken.empty()) continue;
+    throw std::runtime_error(fmt::format(
+        "nk = {}, NM = {} in {} dimensions: {}; no times are taken", workload.size.pairs(),
+        workload.size.point_pairs(), workload.size.dimension, broken));
+  }
+}
+
+/// Adds a contest's medians to the series of the same names, at the next size.
+void add(const std::vector<ContestTimes>& times, Sweep& sweep) {
+  for (std::size_t c = 0; c < times.size(); ++c) {
+    sweep.series[c].seconds.push_back({times[c].median()});
+  }
+}
+
+std::string progress_text(const Sweep& sweep, const WorkloadSize& size) {
+  return sweep.axis == SweepAxis::kPointPairs
+             ? fmt::format("{} NM = {}", sweep.name, size.point_pairs())
+             : fmt::format("{} nk = {}", sweep.name, size.pairs());
+}
+
+void sweep_detectors(int dimension, const SweepSettings& settings, const SweepProgress& progress,
+                     Sweep& sweep) {
+  std::vector<const Detector*> chosen;
+  for (const Detector& detector : detectors()) {
+    if (!detector.is_for(dimension)) continue;
+    chosen.push_back(&detector);
+    sweep.series.push_back(
+        {.name = std::string(detector.name), .seconds = {}, .paper_seconds = {}});
+  }
+  for (const int step : kSteps) {
+    const WorkloadSize size = sweep.axis == SweepAxis::kPointPairs
+                                  ? workload_size(dimension, kPairs, step)
+                                  : workload_size(dimension, step, kPointPairs);
+    if (progress) progress(progress_text(sweep, size));
+    sweep.sizes.push_back(size);
+    const Workload workload = make_workload(size, kWorkloadSeed);
+    verify(workload, chosen, settings.verified_pairs);
+    std::vector<Passes> passes;
+    for (const Detector* detector : chosen) passes.emplace_back(*detector, workload);
+    std::vector<Contestant> contestants;
+    for (Passes& one : passes) {
+      contestants.push_back({one.name(), [&one](int repetitions) { one.make(repetitions); }});
+    }
+    add(run_contest(contestants, settings.contest), sweep);
+    if (!settings.paper_protocol) continue;
+    for (std::size_t c = 0; c < passes.size(); ++c) {
+      const PaperMean mean = paper_mean(passes[c], settings.paper_budget_s);
+      sweep.series[c].paper_seconds.push_back(mean.seconds);
+      sweep.series[c].paper_passes.push_back(mean.passes);
+    }
+  }
+}
+
+/// The steps that were measured are those that the method makes without bystanders.
+void verify(const MethodEntry& method, const Problem& lonely, const ControlLoop& measured) {
+  ControlLoop alone(method, lonely);
+  alone.run(measured.tick());
+  constexpr double kSame = 1e-9;  // [rad]
+  const double apart = (alone.q() - measured.q()).cwiseAbs().maxCoeff();
+  if (measured.infeasible() == 0 && apart <= kSame) return;
+  throw std::runtime_error(
+      fmt::format("{}: expected that bystanders change nothing, after {} steps joints are {} rad "
+                  "elsewhere, and it gave up in {}; no times are taken",
+                  method.name, measured.tick(), apart, measured.infeasible()));
+}
+
+void sweep_steps(int dimension, const SweepSettings& settings, const SweepProgress& progress,
+                 Sweep& sweep) {
+  const Problem lonely = lonely_problem(dimension);
+  const std::vector<Obstacle> bystanders = draw_bystanders(lonely, kBystanders.back());
+  std::vector<const MethodEntry*> chosen;
+  for (const MethodEntry& method : methods()) {
+    const bool fits = why_not_applicable(method.capabilities, lonely).empty();
+    if (method.capabilities.plans || !fits) continue;
+    chosen.push_back(&method);
+    sweep.series.push_back({.name = method.name, .seconds = {}, .paper_seconds = {}});
+  }
+  for (const int k : kBystanders) {
+    Problem problem = lonely;
+    problem.obstacles.assign(bystanders.begin(), bystanders.begin() + k);
+    const WorkloadSize size{.dimension = dimension,
+                            .links = static_cast<int>(lonely.chain.links().size()),
+                            .obstacles = k};
+    if (progress) progress(progress_text(sweep, size));
+    sweep.sizes.push_back(size);
+    std::vector<ControlLoop> loops;
+    for (const MethodEntry* method : chosen) loops.emplace_back(*method, problem);
+    std::vector<Contestant> contestants;
+    for (std::size_t c = 0; c < chosen.size(); ++c) {
+      ControlLoop& loop = loops[c];
+      contestants.push_back({chosen[c]->name, [&loop](int steps) { loop.run(steps); }});
+    }
+    add(run_contest(contestants, settings.contest), sweep);
+    for (std::size_t c = 0; c < chosen.size(); ++c) verify(*chosen[c], lonely, loops[c]);
+  }
+}
+
+}  // namespace
+
+std::span<const std::string_view> sweep_names() { return kSweepNames; }
+
+bool is_of_steps(std::string_view sweep_name) { return sweep_name.ends_with("step_nk"); }
+
+SweepSettings quick_sweeps() { return {}; }
+
+SweepSettings full_sweeps() {
+  return {.contest = {.rounds = 50, .block_s = 5e-4, .budget_s = 0.1, .fewest_rounds = 9},
+          .paper_budget_s = std::numeric_limits<double>::infinity(),
+          .verified_pairs = 50'000};
+}
+
+Sweep run_sweep(std::string_view name, const SweepSettings& settings,
+                const SweepProgress& progress) {
+  Sweep sweep{.name = std::string(name), .axis = axis_of(name), .sizes = {}, .series = {}};
+  if (std::find(kSweepNames.begin(), kSweepNames.end(), name) == kSweepNames.end()) {
+    throw InputError(
+        fmt::format("sweep: expected one of {}, got '{}'", fmt::join(kSweepNames, ", "), name));
+  }
+  const int dimension = name.starts_with("space") ? 3 : 2;
+  if (is_of_steps(name)) {
+    sweep_steps(dimension, settings, progress, sweep);
+  } else {
+    sweep_detectors(dimension, settings, progress, sweep);
+  }
+  return sweep;
+}
+
+}  // namespace bqsa::harness

@@ -1,0 +1,48 @@
+/// @file
+/// The sweeps themselves: one process's share of the measuring.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "harness/measuring/contest.hpp"
+#include "harness/measuring/sweep.hpp"
+
+namespace bqsa::harness {
+
+/// What is measured along what:
+/// - `plane_nm`, `space_nm`: a pass of each detector over all pairs, NM from 1 to 10,000, nk = 27;
+/// - `plane_nk`, `space_nk`: the same, nk from 1 to 10,000, NM = 600;
+/// - `step_nk`, `space_step_nk`: a control step of each reactive method, a planar and a spatial arm
+///   among bystanders, nk from 7 (8) to 7,000 (4,000).
+std::span<const std::string_view> sweep_names();
+
+/// Whether its times are those of control steps, not of passes of a detector.
+bool is_of_steps(std::string_view sweep_name);
+
+struct SweepSettings {
+  ContestSettings contest;       ///< at every size
+  bool paper_protocol = true;    ///< of detectors, besides
+  double paper_budget_s = 0.02;  ///< 100 passes, or fewer where they would take longer, but three
+  int verified_pairs = 2000;     ///< of each detector at each size, before its time is taken
+};
+
+/// In a process of some 20 s for all sweeps together.
+SweepSettings quick_sweeps();
+/// The paper's 100 passes whatever they take, more and longer blocks; a process of some minutes.
+SweepSettings full_sweeps();
+
+/// Told what is being measured, as `plane_nm NM = 100`.
+using SweepProgress = std::function<void(const std::string&)>;
+
+/// Everything of one sweep, in this process: all that runs in the plane, or in space, at a size takes
+/// part in one contest there.
+/// @throws InputError for a name that is not one of sweep_names()
+/// @throws std::runtime_error if a detector's answers are wrong, or a method is not left alone by
+///   bystanders: then there are no times
+Sweep run_sweep(std::string_view name, const SweepSettings& settings,
+                const SweepProgress& progress = {});
+
+}  // namespace bqsa::harness
