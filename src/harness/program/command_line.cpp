@@ -17,11 +17,13 @@ namespace bqsa::harness {
 namespace {
 
 constexpr const char* kFooter =
-    "Exit status: 0 done, 1 a run failed (with --strict) or a law is broken (conform),\n"
-    "2 bad input or results not written.";
+    "Exit status: 0 done, 1 a run failed (with --strict), a law is broken (conform) or something\n"
+    "got worse (compare), 2 bad input or results not written.";
 
 constexpr int kMostGenerated = 100'000;  // the index in a name has five digits
 
+constexpr int kMostProcesses = 1000;
+constexpr double kLargestThreshold = 100;
 constexpr double kMostNoise = 1;  // [rad]
 constexpr int kMostSeeds = 10'000;
 constexpr double kMostSeconds = 1e6;
@@ -53,6 +55,8 @@ struct CommandLine {
   GenerateOptions generate;
   StepOptions step;
   ConformOptions conform;
+  MeasureOptions measure;
+  CompareOptions compare;
   ReportOptions report;
   std::filesystem::path scenario_directory;
   std::filesystem::path results_directory;
@@ -62,6 +66,7 @@ struct CommandLine {
   std::string method_name;
   std::filesystem::path tree = ".";
   bool strict = false;
+  bool quick = false;  ///< what measure does anyway
   std::function<Status(const Console&)> command;
 
   std::vector<MethodEntry> known() const { return with_externals(methods, externals); }
@@ -220,6 +225,55 @@ void declare(CLI::App& app, CommandLine& line) {
     };
   });
 
+  CLI::App* measure = add_command(
+      app, "measure", "Measure detectors and control steps over sizes (docs/measuring.md)");
+  measure
+      ->add_option("--out,-o", line.measure.out,
+                   "File for the measurements, Google Benchmark's JSON")
+      ->required();
+  CLI::Option* quick = measure->add_flag("--quick", line.quick, "One or two minutes [the default]");
+  measure->add_flag("--full", line.measure.full, "More, longer blocks and more processes: an hour")
+      ->excludes(quick);
+  measure
+      ->add_option("--sweep", line.measure.sweeps,
+                   "plane_nm, plane_nk, space_nm, space_nk: passes of detectors; step_nk,\n"
+                   "space_step_nk: control steps of methods; repeatable [all]")
+      ->allow_extra_args(false);
+  measure
+      ->add_option("--processes", line.measure.processes,
+                   "Processes, one after the other; intervals need two [4, --full: 10]")
+      ->check(CLI::Range(1, kMostProcesses));
+  measure
+      ->add_option("--process", line.measure.process,
+                   "Be the one process of this number: measure here, write --out, print nothing")
+      ->check(CLI::Range(1, kMostProcesses));
+  measure->callback([&line] {
+    line.command = [&line](const Console& console) {
+      return measure_command(line.measure, console);
+    };
+  });
+
+  CLI::App* compare =
+      add_command(app, "compare", "Compare old and new results (docs/measuring.md)");
+  compare
+      ->add_option("OLD", line.compare.before,
+                   "Results directory, or JSON file of measure or any Google Benchmark program")
+      ->required()
+      ->check(CLI::ExistingPath);
+  compare->add_option("NEW", line.compare.after, "The same kind of thing")
+      ->required()
+      ->check(CLI::ExistingPath);
+  compare
+      ->add_option("--threshold", line.compare.threshold,
+                   "A time is worse if the whole interval of new / old is above this [1.10]")
+      ->check(CLI::Range(1.0, kLargestThreshold));
+  compare->add_flag("--all", line.compare.all, "Print ties too");
+  compare->callback([&line] {
+    line.command = [&line](const Console& console) {
+      return compare_command(line.compare, console);
+    };
+  });
+
   CLI::App* generate =
       add_command(app, "generate", "Write random scenarios of a family (docs/generator.md)");
   generate->add_option("--family", line.generate.family, "Family of scenarios, see list")
@@ -274,6 +328,7 @@ int run_program(int argc, const char* const* argv, const Console& console,
     CommandLine line;
     line.methods = add_methods(added);
     line.run.command_line = command_line_text(argc, argv);
+    line.measure.command_line = line.run.command_line;
     declare(app, line);
     try {
       app.parse(argc, argv);

@@ -17,7 +17,8 @@ namespace bqsa::harness {
 /// Exit status of the program.
 enum Status {
   kOk = 0,
-  kRunFailed = 1,  ///< conform: a law is broken; with --strict: a run was not judged a success
+  kRunFailed = 1,  ///< conform: a law is broken; compare: something got worse; with --strict: a run
+                   ///< was not judged a success
   kBadInput = 2,   ///< input that cannot be used, or results that cannot be written
 };
 
@@ -104,6 +105,33 @@ struct ConformOptions {
 /// @throws InputError for a bad method or scenario, before anything runs
 Status conform_command(const std::vector<MethodEntry>& methods, const ConformOptions& options,
                        const Console& console);
+
+struct MeasureOptions {
+  bool full = false;                ///< else quick
+  std::vector<std::string> sweeps;  ///< of sweep_names(); none means all
+  int processes = 0;                ///< 0: as many as the effort asks for
+  std::filesystem::path out;
+  int process = 0;  ///< number of this process if it is one of several, from 1; 0: starts them
+  std::string command_line;  ///< as recorded
+};
+
+/// Measures detectors and control steps over sizes in several processes of this program, writes the
+/// measurements as Google Benchmark's JSON and prints what they say. As one of those processes it
+/// measures and writes only.
+/// @throws InputError for an unknown sweep or a file that cannot be written, before anything is
+///   measured
+Status measure_command(const MeasureOptions& options, const Console& console);
+
+struct CompareOptions {
+  std::filesystem::path before,
+      after;                ///< results directories, or files of Google Benchmark's JSON
+  double threshold = 1.10;  ///< ComparisonSettings::time_threshold
+  bool all = false;         ///< rows of what is the same, too
+};
+
+/// Prints what is better or worse; anything worse gives kRunFailed.
+/// @throws InputError for anything in the inputs that cannot be read
+Status compare_command(const CompareOptions& options, const Console& console);
 
 struct GenerateOptions {
   std::string family;

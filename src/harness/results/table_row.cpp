@@ -167,6 +167,16 @@ LogHistogram histogram(const RecordValue& pairs) {
   return counts;
 }
 
+WorkCounters work_counters(const RecordValue& counters) {
+  return {.quadratics = counters["quadratics"].whole(),
+          .point_pairs = counters["point_pairs"].whole(),
+          .distance_queries = counters["distance_queries"].whole(),
+          .kinematics = counters["kinematics"].whole(),
+          .jacobians = counters["jacobians"].whole(),
+          .linear_solves = counters["linear_solves"].whole(),
+          .iterations = counters["iterations"].whole()};
+}
+
 void read_times(const RecordValue& times, TableRow& row) {
   for (const std::string& reason : texts(times["against"])) {
     if (reason != kNotASuccess) row.against_times.push_back(reason);
@@ -199,6 +209,7 @@ void read_run(const RecordValue& record, TableRow& row) {
     row.increments = histogram(ticks["increments_tick_histogram"]);
     row.increments_max = ticks["increments_tick_max"].integer();
   }
+  if (record.has("counters")) row.work = work_counters(record["counters"]);
   read_times(record["times"], row);
 }
 
@@ -246,6 +257,8 @@ TableRow parse_run_record(std::string_view text) {
   }
   row.disturbance = disturbance_text(record);
   row.build = build_text(record["provenance"]);
+  row.compiler = record["provenance"]["compiler"].text();
+  row.processor = record["provenance"]["processor"].text();
   read_claim(record["claimed"], row);
   row.applicable = !record["judged"].is_null();
   if (row.applicable) {

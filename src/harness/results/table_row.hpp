@@ -3,10 +3,12 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "bqsa/work_counters.hpp"
 #include "harness/input_error.hpp"
 #include "harness/log_histogram.hpp"
 
@@ -24,7 +26,9 @@ struct TableRow {
   std::string seed;     ///< of a planning method; empty if it answers tick by tick, or is unknown
   std::string disturbance;  ///< what disturbed it, as text; empty if nothing did
   std::string build;        ///< program, compiler and machine, as text
-  int ticks = 0;            ///< of the problem
+  std::string compiler;
+  std::string processor;
+  int ticks = 0;  ///< of the problem
 
   bool applicable = true;
   bool success = false;  ///< as judged
@@ -62,6 +66,7 @@ struct TableRow {
   int increments_max = 0;   ///< likewise, the exact one
 
   /// Of any run.
+  std::optional<WorkCounters> work;
   bool includes_pipe = false;  ///< times of an external method: its answers come through a pipe
   std::vector<std::string> against_times;  ///< why its times are only indicative; success apart
   double slowest_s = kNone;  ///< its slowest tick from 2 on, the one that gave up included
