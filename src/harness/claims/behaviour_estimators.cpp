@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -38,7 +40,7 @@ std::set<PairName> pairs_named(const std::string& text) {
 std::string text_of(const std::set<PairName>& pairs) {
   std::string text;
   for (const auto& [link, obstacle] : pairs) {
-    text += (text.empty() ? "(" : ", (") + std::to_string(link) + ", " + obstacle + ")";
+    text += fmt::format("{}({}, {})", text.empty() ? "" : ", ", link, obstacle);
   }
   return text.empty() ? "none" : text;
 }

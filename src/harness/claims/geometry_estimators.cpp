@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
@@ -14,18 +16,14 @@ namespace {
 
 constexpr std::uint64_t kSeed = 20160601;
 
-template <int Dim>
-std::string text_of(const WholeVector<Dim>& point) {
-  std::string text;
-  for (const Whole coordinate : point) {
-    text += (text.empty() ? "(" : ", ") + std::to_string(static_cast<int>(coordinate));
-  }
-  return text + ")";
+std::string text_of(const WholeVector<3>& point) {
+  return fmt::format("({}, {}, {})", static_cast<int>(point[0]), static_cast<int>(point[1]),
+                     static_cast<int>(point[2]));
 }
 
 std::string text_of(const WholeEllipsoid<3>& ellipsoid) {
-  return "rows of L " + text_of<3>(ellipsoid.L[0]) + ", " + text_of<3>(ellipsoid.L[1]) + ", " +
-         text_of<3>(ellipsoid.L[2]);
+  return fmt::format("rows of L {}, {}, {}", text_of(ellipsoid.L[0]), text_of(ellipsoid.L[1]),
+                     text_of(ellipsoid.L[2]));
 }
 
 /// Lemma 1: random pairs in space, exactly. Every second pair is of small numbers, where touching is
@@ -52,7 +50,7 @@ Findings lemma_1(const Arguments& arguments, Laboratory& laboratory) {
     free += !in_space.meets;
     free_in_a_projection += free_in_one;
     if (!free_in_one && !in_space.meets && remark.empty()) {
-      remark = "free in space, in no projection: link " + text_of<3>(p1) + " to " + text_of<3>(p2) +
+      remark = "free in space, in no projection: link " + text_of(p1) + " to " + text_of(p2) +
                ", ellipsoid around 0 with " + text_of(ellipsoid);
     }
   }
@@ -131,11 +129,8 @@ Findings five_categories(const Arguments& arguments, Laboratory& laboratory) {
                                 {"polar_wrong", static_cast<double>(polar_wrong)},
                                 {"parameter_wrong", static_cast<double>(parameter_wrong)}},
                     .remarks = {}};
-  std::string counts;
-  for (std::size_t c = 1; c < seen.size(); ++c) {
-    counts += (c == 1 ? "" : ", ") + std::to_string(seen[c]);
-  }
-  findings.remarks.push_back("links in categories 1 to 5: " + counts);
+  findings.remarks.push_back(fmt::format("links in categories 1 to 5: {}, {}, {}, {}, {}", seen[1],
+                                         seen[2], seen[3], seen[4], seen[5]));
   return findings;
 }
 

@@ -1,16 +1,14 @@
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <numbers>
 #include <random>
-#include <system_error>
 
 #include "bqsa/hybrid_ik.hpp"
 #include "harness/claims/estimator_lists.hpp"
 #include "harness/claims/experiment_arguments.hpp"
 #include "harness/claims/pose_categories.hpp"
+#include "harness/claims/scratch_directory.hpp"
 #include "harness/generator/generator.hpp"
 #include "harness/text_file.hpp"
 
@@ -197,29 +195,6 @@ Findings free_postures(const Arguments& arguments, Laboratory& laboratory) {
                       {"start_free", is_free(problem.start) ? 1.0 : 0.0}},
           .remarks = {}};
 }
-
-/// A directory that is gone with the object.
-class ScratchDirectory {
- public:
-  ScratchDirectory() {
-    std::string name = (std::filesystem::temp_directory_path() / "bqsa-claims-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) {
-      throw InputError(name + ": expected a directory that can be made, got one that cannot");
-    }
-    path_ = name;
-  }
-  ~ScratchDirectory() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchDirectory(const ScratchDirectory&) = delete;
-  ScratchDirectory& operator=(const ScratchDirectory&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 const Family& planar_family(const std::string& name) {
   for (const Family& family : families()) {
