@@ -158,12 +158,13 @@ std::string claims_table(const Json& record) {
     broken += mark_of(claim) == "!";
     undecided_here += mark_of(claim) == "~";
   }
-  text +=
-      "\n" + times_note(record) +
-      "Figures are those that bounds are on, with 95 % intervals where they have any; one claim in "
-      "full, with its bounds:\n--only ID. ! another verdict than expected: the claim no longer "
-      "holds; "
-      "~ rests on times and is not decided here.\n";
+  text += fmt::format(
+      "\n{}Figures are those that bounds are on, with 95 % intervals where they have any; a claim "
+      "in full:\n"
+      "--only ID. ! another verdict than expected: the claim no longer holds; ~ rests on times and "
+      "is not\n"
+      "decided here.\n",
+      times_note(record));
   text += fmt::format("{} claims: {}", record.at("claims").size(), counts_text(record));
   if (undecided_here > 0) text += fmt::format("; {} not decided here", undecided_here);
   text += broken == 0 ? "; none breaks what is expected\n"

@@ -45,13 +45,14 @@ Findings multiplications_a_pair(const Arguments&, Laboratory&) {
           .remarks = {}};
 }
 
-/// An arm whose points lie at growing distances, so that no link hits the unit circle or ball.
+/// An arm whose links all lie across, beside the unit circle or ball: none hits, and the polar form has
+/// to ask all its questions of each.
 template <int Dim>
 std::vector<CountingPoint<Dim>> arm(int links) {
   std::vector<CountingPoint<Dim>> points;
   for (int k = 0; k <= links; ++k) {
-    CountingPoint<Dim> point = CountingPoint<Dim>::Constant(CountingScalar(2.0 + k));
-    point(0) = k % 2 == 0 ? -1.0 : 1.5;
+    CountingPoint<Dim> point = CountingPoint<Dim>::Constant(CountingScalar(1.5));
+    point(0) = k % 2 == 0 ? -3.0 : 3.0;
     points.push_back(point);
   }
   return points;
@@ -175,7 +176,7 @@ std::vector<Estimator> counting_estimators() {
                      {"points_of_link", ArgumentKind::kWholeNumber, "5", "N"},
                      {"points_of_obstacle", ArgumentKind::kWholeNumber, "8", "M"}},
        .figures = {{"bqsa_per_pair", "-", "paper's form, quadratic and discriminant"},
-                   {"polar_per_pair", "-", "polar form, end-points shared"},
+                   {"polar_per_pair", "-", "polar form, end-points shared, links that do not hit"},
                    {"points_per_point_pair", "-", "test points"},
                    {"bqsa", "-", "paper's form, the whole pass"},
                    {"points", "-", "test points, the whole pass"},

@@ -4,9 +4,22 @@
 
 #include <algorithm>
 
+#include "harness/claims/scratch_directory.hpp"
+#include "harness/generator/generator.hpp"
 #include "harness/method_spec.hpp"
+#include "harness/text_file.hpp"
 
 namespace bqsa::harness {
+namespace {
+
+const Family& planar_family(const std::string& name) {
+  for (const Family& family : families()) {
+    if (family.name == name && family.planar && !family.spatial) return family;
+  }
+  throw InputError(fmt::format("family: expected a planar family, got {}", name));
+}
+
+}  // namespace
 
 std::string Experiment::key() const {
   return fmt::format("{} {} {} {}", scenario, method, obstacles, refinement) +
@@ -38,6 +51,17 @@ Problem Laboratory::problem(const Experiment& experiment) {
   problem.ticks *= experiment.refinement;
   problem.dt /= experiment.refinement;
   return problem;
+}
+
+const Problem& Laboratory::generated(const std::string& family, std::uint64_t seed, int index) {
+  const std::string key = fmt::format("{} {} {}", family, seed, index);
+  const auto found = generated_.find(key);
+  if (found != generated_.end()) return found->second;
+  const ScratchDirectory directory;
+  const std::filesystem::path file = directory.path() / "problem.yaml";
+  Rejections rejections;
+  write_text_file(file, generate(planar_family(family), seed, index, {}, rejections).yaml);
+  return generated_.emplace(key, load_scenario(file).problem).first->second;
 }
 
 MethodSpec Laboratory::method(const std::string& text) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -56,6 +57,10 @@ class Laboratory {
   /// What the judge says of it; judged once.
   const Judgement& judgement(const Experiment& experiment);
 
+  /// A problem of a planar family, made once.
+  /// @throws InputError if there is no such family
+  const Problem& generated(const std::string& family, std::uint64_t seed, int index);
+
   /// A reactive method with its parameters.
   /// @throws InputError as run()
   MethodSpec method(const std::string& text) const;
@@ -70,6 +75,7 @@ class Laboratory {
   const std::vector<MethodEntry>& methods_;
   const std::vector<Sweep>& sweeps_;
   std::map<std::string, Scenario> scenarios_;
+  std::map<std::string, Problem> generated_;
   std::map<std::string, RecordedRun> runs_;
   std::map<std::string, Judgement> judgements_;
 };

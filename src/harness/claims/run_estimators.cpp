@@ -8,9 +8,6 @@
 #include "harness/claims/estimator_lists.hpp"
 #include "harness/claims/experiment_arguments.hpp"
 #include "harness/claims/pose_categories.hpp"
-#include "harness/claims/scratch_directory.hpp"
-#include "harness/generator/generator.hpp"
-#include "harness/text_file.hpp"
 
 namespace bqsa::harness {
 namespace {
@@ -196,26 +193,15 @@ Findings free_postures(const Arguments& arguments, Laboratory& laboratory) {
           .remarks = {}};
 }
 
-const Family& planar_family(const std::string& name) {
-  for (const Family& family : families()) {
-    if (family.name == name && family.planar && !family.spatial) return family;
-  }
-  throw InputError(fmt::format("family: expected a planar family, got {}", name));
-}
-
 /// Random problems, each with a known solution.
 Findings random_problems(const Arguments& arguments, Laboratory& laboratory) {
-  const Family& family = planar_family(arguments.text("family"));
   const MethodSpec method = laboratory.method(arguments.text("method"));
   const int count = laboratory.samples(arguments.whole("count"));
   const auto seed = static_cast<std::uint64_t>(arguments.whole("seed"));
-  const ScratchDirectory directory;
-  Rejections rejections;
   int solved = 0, false_claims = 0;
   for (int index = 0; index < count; ++index) {
-    const std::filesystem::path file = directory.path() / "problem.yaml";
-    write_text_file(file, generate(family, seed, index, {}, rejections).yaml);
-    const RecordedRun recorded = record_run(load_scenario(file).problem, method);
+    const RecordedRun recorded =
+        record_run(laboratory.generated(arguments.text("family"), seed, index), method);
     const bool claimed = recorded.ticks.back().state != TickState::kInfeasible;
     const bool success = Judge(recorded.problem).judge(recorded.trajectory).success();
     solved += success;
@@ -289,9 +275,10 @@ std::vector<Estimator> run_estimators() {
        .estimate = free_postures},
       {.name = "random_problems",
        .what = "Random problems with known solutions, judged",
-       .arguments = {{"family", ArgumentKind::kText, "planar", "a planar family, see list"},
+       .arguments = {{"family", ArgumentKind::kText, "planar",
+                      "a family of planar problems, see list"},
                      {"method", ArgumentKind::kText, {}, "a reactive method, M[:key=value,...]"},
-                     {"count", ArgumentKind::kWholeNumber, "60",
+                     {"count", ArgumentKind::kWholeNumber, "50",
                       "of a quick evaluation; a full one takes twenty times as many"},
                      {"seed", ArgumentKind::kWholeNumber, "1", "of the generator"}},
        .figures = {{"problems", "-", "tried"},
