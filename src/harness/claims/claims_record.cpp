@@ -121,7 +121,7 @@ Json claims_record(const std::vector<EvaluatedClaim>& claims, const EvaluationOr
 Json read_claims_record(const std::filesystem::path& file) {
   constexpr std::size_t kMaxBytes = std::size_t{1} << 24;
   Json record = Json::parse(read_text_file(file, kMaxBytes), nullptr, false);
-  const bool known = record.is_object() && record.value("schema", "") == kSchema;
+  const bool known = record.is_object() && record.contains("schema") && record["schema"] == kSchema;
   if (!known) {
     throw InputError(fmt::format("{}: expected an evaluation of claims ({}), got another file",
                                  file.string(), kSchema));

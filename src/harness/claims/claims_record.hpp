@@ -16,12 +16,12 @@ namespace bqsa::harness {
 
 /// Where an evaluation comes from.
 struct EvaluationOrigin {
-  std::string command_line;
-  std::string claims_file;
+  std::string command_line = {};
+  std::string claims_file = {};
   bool full = false;
-  BuildInfo build;
-  MachineState machine;
-  std::optional<MeasurementOrigin> measured;  ///< of the times; nothing if none were needed
+  BuildInfo build = {};
+  MachineState machine = {};
+  std::optional<MeasurementOrigin> measured = {};  ///< of the times; nothing if none were needed
 };
 
 /// A JSON object with everything: claims, figures, bounds, outcomes, verdicts, origin.

@@ -142,7 +142,7 @@ std::string claims_table(const Json& record) {
   std::string text;
   for (const Json& claim : record.at("claims")) {
     const std::string head =
-        fmt::format("{} {:<26} {:<26}", mark_of(claim), claim.at("id").get<std::string>(),
+        fmt::format("{} {:<29} {:<26}", mark_of(claim), claim.at("id").get<std::string>(),
                     claim.at("verdict").get<std::string>());
     const std::string source = claim.at("source").get<std::string>() + ": ";
     const std::string statement = claim.at("statement");
@@ -225,7 +225,7 @@ std::string claims_markdown(const Json& record) {
          "\n";
 }
 
-std::string with_claims_block(std::string_view text, const Json& record) {
+std::string with_claims_block(std::string_view text, std::string_view table) {
   constexpr std::string_view kBegin = "<!-- claims -->\n", kEnd = "<!-- /claims -->\n";
   const std::size_t begin = text.find(kBegin), end = text.find(kEnd);
   const bool once = begin != std::string_view::npos && end != std::string_view::npos &&
@@ -235,8 +235,7 @@ std::string with_claims_block(std::string_view text, const Json& record) {
     throw InputError(
         "expected the lines <!-- claims --> and <!-- /claims -->, once each, got none");
   }
-  return std::string(text.substr(0, begin + kBegin.size())) + claims_markdown(record) +
-         std::string(text.substr(end));
+  return fmt::format("{}{}{}", text.substr(0, begin + kBegin.size()), table, text.substr(end));
 }
 
 }  // namespace bqsa::harness

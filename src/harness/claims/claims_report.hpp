@@ -17,8 +17,8 @@ std::string claim_in_full(const nlohmann::ordered_json& claim);
 /// The table as Markdown, without anything that differs between two evaluations with the same figures.
 std::string claims_markdown(const nlohmann::ordered_json& record);
 
-/// The text with all between the lines `<!-- claims -->` and `<!-- /claims -->` replaced by the table.
+/// The text with all between the lines `<!-- claims -->` and `<!-- /claims -->` replaced by `table`.
 /// @throws InputError if the lines are not there, once each and in this order
-std::string with_claims_block(std::string_view text, const nlohmann::ordered_json& record);
+std::string with_claims_block(std::string_view text, std::string_view table);
 
 }  // namespace bqsa::harness

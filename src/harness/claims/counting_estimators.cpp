@@ -7,6 +7,8 @@
 
 #include "harness/claims/estimator_lists.hpp"
 #include "harness/measuring/counting_scalar.hpp"
+#include "harness/measuring/detector.hpp"
+#include "harness/measuring/miss_rate.hpp"
 #include "harness/measuring/quadratic_passes.hpp"
 #include "harness/measuring/test_point_pass.hpp"
 
@@ -151,6 +153,23 @@ Findings count_ratio(const Arguments& arguments, Laboratory&) {
           .remarks = {}};
 }
 
+/// How many first contacts test points miss, and BQSA.
+Findings missed_collisions(const Arguments& arguments, Laboratory&) {
+  const baselines::TestPointCounts counts{.link = arguments.whole("points_of_link"),
+                                          .obstacle = arguments.whole("points_of_obstacle")};
+  if (counts.link < 1 || counts.obstacle < 1) {
+    throw InputError("points: expected at least 1 of link and obstacle, got 0");
+  }
+  constexpr std::uint64_t kSeed = 1;
+  const PairPopulation population(Population::kFirstContact, 2, kSeed);
+  const MissRate points = population.ask(detector_named("test_points"), counts);
+  const MissRate bqsa = population.ask(detector_named("bqsa"), counts);
+  return {.figures = {{"missed", points.miss_rate(), points.miss_interval()},
+                      {"missed_by_bqsa", bqsa.miss_rate(), bqsa.miss_interval()},
+                      {"point_pairs", static_cast<double>(counts.link) * counts.obstacle}},
+          .remarks = {}};
+}
+
 }  // namespace
 
 std::vector<Estimator> counting_estimators() {
@@ -190,6 +209,14 @@ std::vector<Estimator> counting_estimators() {
        .figures = {{"growth", "-", "of the ratio over that of NM, for NM a hundred times as large"},
                    {"spread_over_pairs", "-", "largest ratio over least for nk from 1 to 400"}},
        .estimate = count_ratio},
+      {.name = "missed_collisions",
+       .what = "Which part of first contacts test points miss (miss_rate.hpp)",
+       .arguments = {{"points_of_link", ArgumentKind::kWholeNumber, {}, "N"},
+                     {"points_of_obstacle", ArgumentKind::kWholeNumber, {}, "M"}},
+       .figures = {{"missed", "-", "part of the hits that test points call free"},
+                   {"missed_by_bqsa", "-", "the same of BQSA"},
+                   {"point_pairs", "-", "NM"}},
+       .estimate = missed_collisions},
   };
 }
 

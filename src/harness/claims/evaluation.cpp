@@ -58,7 +58,7 @@ void decide_standing(EvaluatedClaim& one, const TimesState& times, const std::st
   const Claim& claim = *one.claim;
   if (claim.timing() && !claim.gate && !gate.empty()) {
     one.verdict = Verdict::kUndecided;
-    one.reason = gate;
+    if (claim.expected != Verdict::kUndecided) one.reason = gate;
   }
   if (one.verdict == claim.expected) return;
   one.standing = Standing::kBroken;

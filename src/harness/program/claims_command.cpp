@@ -91,15 +91,23 @@ void make_directory(const fs::path& directory) {
 }  // namespace
 
 Status render_claims_command(const fs::path& result, const fs::path& into, const Console& console) {
+  std::string table;
   const nlohmann::ordered_json record = read_claims_record(result);
+  try {
+    table = claims_markdown(record);
+  } catch (const nlohmann::json::exception&) {
+    throw InputError(
+        fmt::format("{}: expected a complete evaluation of claims, got one with parts missing",
+                    result.string()));
+  }
   if (into.empty()) {
-    console.out << claims_markdown(record);
-  } else {
-    try {
-      write_text_file(into, with_claims_block(read_text_file(into, kMaxBytes), record));
-    } catch (const InputError& error) {
-      throw InputError(fmt::format("{}: {}", into.string(), error.what()));
-    }
+    console.out << table;
+    return kOk;
+  }
+  try {
+    write_text_file(into, with_claims_block(read_text_file(into, kMaxBytes), table));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", into.string(), error.what()));
   }
   return kOk;
 }
