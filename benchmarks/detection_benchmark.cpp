@@ -1,234 +1,193 @@
-// Time of one link-obstacle test, form by form, and of the fields that BQSA asks, in space and by
-// projections. Inputs are made, and the forms' answers compared with each other, before anything is
-// timed.
+// Time of telling which links hit which obstacles, detector by detector, against NM and against nk, and
+// of the fields that BQSA asks, in space and by projections. Inputs are made, and all answers compared
+// with the judge's exact distance, before anything is timed.
 
 #include <benchmark/benchmark.h>
 
-#include <Eigen/QR>
-
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <random>
+#include <list>
+#include <string>
 #include <vector>
 
-#include "bqsa/geometry/paper_form.hpp"
-#include "bqsa/geometry/segment_test.hpp"
 #include "bqsa/obstacle_field.hpp"
 #include "bqsa/shadow_field.hpp"
+#include "harness/measuring/detector.hpp"
+#include "harness/measuring/verify_detector.hpp"
+#include "harness/measuring/workload.hpp"
 
-namespace bqsa {
+namespace bqsa::harness {
 namespace {
 
-constexpr int kPairs = 1000;
-constexpr int kLinksPerChain = 10;  // for the forms that share end-points: 100 chains
+constexpr std::uint64_t kSeed = 1;
+constexpr int kPairs = 27;        // nk, where NM is varied
+constexpr int kPointPairs = 600;  // NM, where nk is varied
+constexpr int kCheckedPairs = 2000;
+constexpr int kCheckedPoses = 8;  // at least
 
-/// A thousand pairs, laid out as chains: link k of a chain joins its points k and k + 1.
-template <int Dim>
-struct Inputs {
-  using Vector = Eigen::Matrix<double, Dim, 1>;
+/// Time a pair, in seconds, of iterations over so many pairs.
+benchmark::Counter per_pair(int pairs) {
+  using benchmark::Counter;
+  return {static_cast<double>(pairs), Counter::kIsIterationInvariantRate | Counter::kInvert};
+}
 
-  struct Chain {
-    EllipsoidN<Dim> obstacle;
-    std::vector<Vector> points;
-  };
+/// Times passes over all pairs, pose after pose.
+void time_detector(benchmark::State& state, const Detector& detector, const Workload& workload,
+                   const Verification& verification) {
+  const std::unique_ptr<Detection> detection = detector.prepare(workload);
+  std::vector<std::uint8_t> hit(static_cast<std::size_t>(workload.size.pairs()));
+  const int poses = static_cast<int>(workload.poses.size());
+  int pose = 0;
+  for (auto _ : state) {
+    detection->detect(pose, hit);
+    benchmark::DoNotOptimize(hit.data());
+    benchmark::ClobberMemory();
+    if (++pose == poses) pose = 0;
+  }
+  const auto& [hits, missed, free, false_alarms, far_alarms, touching, vertical] = verification;
+  state.counters["per_pair"] = per_pair(workload.size.pairs());
+  state.counters["hits"] = static_cast<double>(hits) / (hits + free);
+  state.counters["miss_rate"] = static_cast<double>(missed) / hits;
+  const double multiplications = detector.multiplications(workload.size);
+  if (std::isfinite(multiplications)) state.counters["multiplications"] = multiplications;
+}
 
-  Inputs() {
-    std::mt19937_64 generator(1);
-    std::uniform_real_distribution<double> axis(0.05, 0.5), place(-1, 1);
-    std::normal_distribution<double> normal;
-    const auto vector = [&] {
-      return Vector(Vector::NullaryExpr([&] { return place(generator); }));
-    };
-    for (int i = 0; i < kPairs / kLinksPerChain; ++i) {
-      using Matrix = Eigen::Matrix<double, Dim, Dim>;
-      const Matrix random = Matrix::NullaryExpr([&] { return normal(generator); });
-      Matrix rotation = Eigen::HouseholderQR<Matrix>(random).householderQ();
-      if (rotation.determinant() < 0) rotation.col(0) = -rotation.col(0);
-      const Vector axes = Vector::NullaryExpr([&] { return axis(generator); });
-      chains.push_back({{vector(), axes, rotation}, {vector()}});
-      for (int k = 0; k < kLinksPerChain; ++k) chains.back().points.push_back(vector());
+/// Registers a detector at one size, if it keeps its promise there.
+bool add(const std::string& sweep, int at, const Detector& detector, const Workload& workload,
+         const ReferenceAnswers& reference) {
+  const Verification verification = verify_detector(detector, workload, reference);
+  const std::string broken = broken_promise(detector, verification);
+  const std::string name = sweep + "/" + std::string(detector.name) + "/" + std::to_string(at);
+  if (!broken.empty()) {
+    std::fprintf(stderr, "detection_benchmark: %s: %s\n", name.c_str(), broken.c_str());
+    return false;
+  }
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [&detector, &workload, verification](benchmark::State& state) {
+                                 time_detector(state, detector, workload, verification);
+                               });
+  return true;
+}
+
+/// Registers all detectors at one size.
+bool add_all(const std::string& sweep, int at, const WorkloadSize& size) {
+  static std::list<Workload> kept;  // as long as the benchmarks that refer to them
+  const Workload& workload = kept.emplace_back(make_workload(size, kSeed));
+  const ReferenceAnswers reference =
+      reference_answers(workload, std::max(kCheckedPairs, kCheckedPoses * size.pairs()));
+  bool kept_promises = true;
+  for (const Detector& detector : detectors()) {
+    if (!detector.is_for(size.dimension)) continue;
+    kept_promises = add(sweep, at, detector, workload, reference) && kept_promises;
+  }
+  return kept_promises;
+}
+
+bool add_sweeps() {
+  bool kept_promises = true;
+  for (const int dimension : {2, 3}) {
+    const std::string scene = dimension == 2 ? "plane" : "space";
+    for (const int nm : {1, 2, 4, 12, 25, 50, 100, 200, 600, 1000, 2000, 5000, 10000}) {
+      kept_promises =
+          add_all(scene + "_nm", nm, workload_size(dimension, kPairs, nm)) && kept_promises;
+    }
+    for (const int nk : {1, 3, 10, 27, 100, 300, 1000, 3000, 10000}) {
+      kept_promises =
+          add_all(scene + "_nk", nk, workload_size(dimension, nk, kPointPairs)) && kept_promises;
     }
   }
-
-  std::vector<Chain> chains;
-};
-
-/// Calls `test(obstacle, p1, p2)` for all pairs; the number of hits.
-template <int Dim, typename Test>
-int count_hits(const Inputs<Dim>& inputs, const Test& test) {
-  int hit_count = 0;
-  for (const auto& [obstacle, points] : inputs.chains) {
-    for (std::size_t k = 0; k + 1 < points.size(); ++k) {
-      hit_count += test(obstacle, points[k], points[k + 1]);
-    }
-  }
-  return hit_count;
+  return kept_promises;
 }
 
-template <int Dim>
-int polar_hits(const Inputs<Dim>& inputs) {
-  return count_hits<Dim>(inputs, [](const auto& obstacle, const auto& p1, const auto& p2) {
-    return is_hit(category(polar_form<Dim>(obstacle, p1, p2)));
-  });
-}
-
-template <int Dim>
-int parameter_hits(const Inputs<Dim>& inputs) {
-  return count_hits<Dim>(inputs, [](const auto& obstacle, const auto& p1, const auto& p2) {
-    return is_hit(category(
-        parameter_form<double, Dim>(unit_point<Dim>(obstacle, p1), unit_point<Dim>(obstacle, p2))));
-  });
-}
-
-/// The polar form with each end-point mapped once for the two links that share it.
-template <int Dim>
-int shared_polar_hits(const Inputs<Dim>& inputs) {
-  using Vector = Eigen::Matrix<double, Dim, 1>;
-  int hit_count = 0;
-  for (const auto& [obstacle, points] : inputs.chains) {
-    Vector u = unit_point<Dim>(obstacle, points[0]);
-    double level = inner(u, u) - 1;
-    for (std::size_t k = 1; k < points.size(); ++k) {
-      const Vector next = unit_point<Dim>(obstacle, points[k]);
-      const double next_level = inner(next, next) - 1;
-      hit_count += is_hit(category(PolarForm<double>{level, inner(u, next) - 1, next_level}));
-      for (int i = 0; i < Dim; ++i) u(i) = next(i);  // one by one, as they were stored
-      level = next_level;
-    }
-  }
-  return hit_count;
-}
-
-/// The paper's form. Its conic coefficients are given, as the paper assumes; one conic a chain.
-template <typename Form>
-int paper_hits(const Inputs<2>& inputs, const std::vector<Conic<double>>& conics,
-               const Form& form) {
-  int hit_count = 0;
-  for (std::size_t i = 0; i < conics.size(); ++i) {
-    const auto& points = inputs.chains[i].points;
-    for (std::size_t k = 0; k + 1 < points.size(); ++k) {
-      const PaperForm<double> f = form(conics[i], points[k], points[k + 1]);
-      hit_count += is_hit(paper_category(f, points[k].x(), points[k + 1].x()));
-    }
-  }
-  return hit_count;
-}
-
-const Inputs<2> kPlane;
-const Inputs<3> kSpace;
-
-std::vector<Conic<double>> conics_of(const Inputs<2>& inputs) {
-  std::vector<Conic<double>> conics;
-  for (const auto& chain : inputs.chains) conics.push_back(conic_from_ellipse(chain.obstacle));
-  return conics;
-}
-
-const std::vector<Conic<double>> kConics = conics_of(kPlane);
-
-int paper_as_printed() { return paper_hits(kPlane, kConics, paper_form<double>); }
-int paper_shared() { return paper_hits(kPlane, kConics, paper_form_shared<double>); }
-
-/// A chain's obstacle as Field sees it, and the chain as a pose.
+/// An obstacle as Field sees it, and an arm as a pose.
 template <typename Field>
 struct Asked {
   Field field;
   ChainPose pose;
 };
 
+constexpr int kFields = 100;
+constexpr int kLinks = 10;
+
+/// A hundred arms of ten links, each with one obstacle.
+std::vector<Workload> field_workloads() {
+  std::vector<Workload> workloads;
+  for (std::uint64_t seed = 0; seed < kFields; ++seed) {
+    workloads.push_back(
+        make_workload({.dimension = 3, .links = kLinks, .obstacles = 1}, kSeed + seed));
+  }
+  return workloads;
+}
+
 template <typename Field>
-std::vector<Asked<Field>> asked(const Inputs<3>& inputs, WorkCounters& counters) {
+std::vector<Asked<Field>> asked(const std::vector<Workload>& workloads, WorkCounters& counters) {
   std::vector<Asked<Field>> all;
-  for (const auto& [obstacle, points] : inputs.chains) {
-    Asked<Field>& chain = all.emplace_back();
-    chain.field.assign({{"obstacle", obstacle}}, counters);
-    chain.pose.p_WO.resize(3, static_cast<Eigen::Index>(points.size()));
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      chain.pose.p_WO.col(static_cast<Eigen::Index>(k)) = points[k];
-    }
+  for (const Workload& workload : workloads) {
+    Asked<Field>& one = all.emplace_back();
+    one.field.assign({{"obstacle", workload.obstacles.front()}}, counters);
+    one.pose.p_WO = workload.poses.front();
   }
   return all;
 }
 
-WorkCounters space_work, shadow_work;
-const std::vector<Asked<ObstacleField<3>>> kSpaceFields =
-    asked<ObstacleField<3>>(kSpace, space_work);
-const std::vector<Asked<ShadowField>> kShadowFields = asked<ShadowField>(kSpace, shadow_work);
-
 template <typename Field>
-int field_hits(const std::vector<Asked<Field>>& chains) {
+int field_hits(const std::vector<Asked<Field>>& all) {
   int hit_count = 0;
-  for (const Asked<Field>& chain : chains) {
-    for (int k = 0; k < kLinksPerChain; ++k) {
-      hit_count += chain.field.first_hit(chain.pose, {k + 1, k, k + 1}) >= 0;
+  for (const Asked<Field>& one : all) {
+    for (int k = 0; k < kLinks; ++k) {
+      hit_count += one.field.first_hit(one.pose, {k + 1, k, k + 1}) >= 0;
     }
   }
   return hit_count;
 }
 
-int space_field_hits() { return field_hits(kSpaceFields); }
-int shadow_field_hits() { return field_hits(kShadowFields); }
-
-/// Quadratics that a field evaluates in one pass, a pair.
-double quadratics_per_pair(int (*hits)(), const WorkCounters& work) {
-  const std::uint64_t before = work.quadratics;
-  hits();
-  return static_cast<double>(work.quadratics - before) / kPairs;
+template <typename Field>
+void add_field(const char* name, const std::vector<Workload>& workloads) {
+  benchmark::RegisterBenchmark(name, [&workloads](benchmark::State& state) {
+    WorkCounters work;
+    const std::vector<Asked<Field>> all = asked<Field>(workloads, work);
+    const int hit_count = field_hits(all);
+    const auto quadratics = static_cast<double>(work.quadratics);
+    for (auto _ : state) benchmark::DoNotOptimize(field_hits(all));
+    state.counters["per_pair"] = per_pair(kFields * kLinks);
+    state.counters["quadratics"] = quadratics / (kFields * kLinks);
+    state.counters["hits"] = static_cast<double>(hit_count) / (kFields * kLinks);
+  });
 }
 
-/// Times `hits()`, a pass over all pairs; "per_pair" is seconds a pair.
-template <typename Hits>
-void time_pairs(benchmark::State& state, const Hits& hits) {
-  for (auto _ : state) {
-    int hit_count = hits();
-    benchmark::DoNotOptimize(hit_count);
+/// Registers the fields, if the one finds the hits of the reference and the other not fewer.
+bool add_fields() {
+  static const std::vector<Workload> kWorkloads = field_workloads();
+  int hits = 0;
+  for (const Workload& workload : kWorkloads) {
+    for (const double clearance : reference_answers(workload, 1).clearance) hits += clearance < 0;
   }
-  using benchmark::Counter;
-  state.counters["per_pair"] =
-      Counter(kPairs, Counter::kIsIterationInvariantRate | Counter::kInvert);
-}
-
-void register_all() {
-  const auto add = [](const char* name, int (*hits)()) {
-    benchmark::RegisterBenchmark(name, [hits](benchmark::State& s) { time_pairs(s, hits); });
-  };
-  add("plane/paper_form", paper_as_printed);
-  add("plane/paper_form_shared", paper_shared);
-  add("plane/parameter_form", [] { return parameter_hits(kPlane); });
-  add("plane/polar_form", [] { return polar_hits(kPlane); });
-  add("plane/polar_form_shared_ends", [] { return shared_polar_hits(kPlane); });
-  add("space/parameter_form", [] { return parameter_hits(kSpace); });
-  add("space/polar_form", [] { return polar_hits(kSpace); });
-  add("space/polar_form_shared_ends", [] { return shared_polar_hits(kSpace); });
-  const auto add_field = [](const char* name, int (*hits)(), const WorkCounters& work) {
-    benchmark::RegisterBenchmark(name, [hits, &work](benchmark::State& s) {
-      time_pairs(s, hits);
-      s.counters["quadratics"] = quadratics_per_pair(hits, work);
-      s.counters["hits"] = static_cast<double>(hits()) / kPairs;
-    });
-  };
-  add_field("field/space", space_field_hits, space_work);
-  add_field("field/projections", shadow_field_hits, shadow_work);
-}
-
-/// Whether all forms find the same hits, and neither none nor only hits.
-bool forms_agree() {
-  const int plane = polar_hits(kPlane), space = polar_hits(kSpace);
-  return plane > 0 && plane < kPairs && space > 0 && space < kPairs &&
-         plane == paper_as_printed() && plane == paper_shared() &&
-         plane == parameter_hits(kPlane) && plane == shared_polar_hits(kPlane) &&
-         space == parameter_hits(kSpace) && space == shared_polar_hits(kSpace) &&
-         space == space_field_hits() && space < shadow_field_hits();
+  WorkCounters work;
+  const int in_space = field_hits(asked<ObstacleField<3>>(kWorkloads, work));
+  const int by_projections = field_hits(asked<ShadowField>(kWorkloads, work));
+  if (hits == 0 || in_space != hits || by_projections < hits) {
+    std::fprintf(stderr,
+                 "detection_benchmark: expected %d hits of field/space and no fewer of "
+                 "field/projections, got %d and %d\n",
+                 hits, in_space, by_projections);
+    return false;
+  }
+  add_field<ObstacleField<3>>("field/space", kWorkloads);
+  add_field<ShadowField>("field/projections", kWorkloads);
+  return true;
 }
 
 }  // namespace
-}  // namespace bqsa
+}  // namespace bqsa::harness
 
 int main(int argc, char** argv) {
-  if (!bqsa::forms_agree()) {
-    std::fputs("detection_benchmark: the forms disagree on a hit; nothing timed\n", stderr);
+  const bool fields_agree = bqsa::harness::add_fields();
+  if (!bqsa::harness::add_sweeps() || !fields_agree) {
+    std::fputs("detection_benchmark: wrong answers; nothing timed\n", stderr);
     return EXIT_FAILURE;
   }
-  bqsa::register_all();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return EXIT_FAILURE;
   benchmark::RunSpecifiedBenchmarks();

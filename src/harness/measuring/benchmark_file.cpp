@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "harness/measuring/measurements_schema.hpp"
 #include "harness/results/record_value.hpp"
 #include "harness/text_file.hpp"
 
@@ -63,7 +64,7 @@ BenchmarkFile read(const RecordValue& json) {
     }
     if (entry.has("run_type") && entry["run_type"].text() != "iteration") continue;
     const std::string name = entry["name"].text();
-    if (context.has("bqsa") && name.ends_with("/paper")) continue;  // taken once, not to compare
+    if (context.has("bqsa") && name.ends_with(kPaperEnd)) continue;  // taken once, not to compare
     const double seconds = entry["cpu_time"].number() * seconds_in(entry["time_unit"]);
     if (!(seconds > 0)) entry["cpu_time"].refuse("expected a positive number");
     const auto [place, first] = places.try_emplace(name, file.benchmarks.size());

@@ -1,5 +1,5 @@
 // libccd without FCL around it, with support functions for exactly what links and obstacles are. In
-// millimetres, like FCL.
+// millimetres, like FCL: libccd's tolerance, 1e-4 of them, is absolute too.
 
 #include <ccd/ccd.h>
 
@@ -15,9 +15,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kMillimetres = 1000;
-constexpr unsigned long kMostIterations = 500;
-constexpr double kTolerance =
-    1e-6;  // of the portal's refinement; libccd's default of 1e-4 misses hits
+constexpr unsigned long kMostIterations = 500;  // as FCL sets it
 
 struct Segment {
   Vector3d a, b;  // [mm]
@@ -61,7 +59,7 @@ void first_direction(const void* segment, const void* ball, ccd_vec3_t* directio
   if (ccdVec3Len2(direction) == 0) ccdFirstDirDefault(segment, ball, direction);
 }
 
-template <int (*kIntersect)(const void*, const void*, const ccd_t*)>
+template <int (*Intersect)(const void*, const void*, const ccd_t*)>
 class CcdDetection final : public Detection {
  public:
   explicit CcdDetection(const Workload& workload)
@@ -82,7 +80,6 @@ class CcdDetection final : public Detection {
     ccd_.center1 = segment_center;
     ccd_.center2 = ball_center;
     ccd_.max_iterations = kMostIterations;
-    ccd_.mpr_tolerance = kTolerance;
   }
 
   void detect(int pose, std::span<std::uint8_t> hit) override {
@@ -91,7 +88,7 @@ class CcdDetection final : public Detection {
     std::uint8_t* answer = hit.data();
     for (const Ball& ball : obstacles_) {
       for (std::size_t i = 0; i < links_a_pose_; ++i) {
-        *answer++ = kIntersect(&links[i], &ball, &ccd_) != 0;
+        *answer++ = Intersect(&links[i], &ball, &ccd_) != 0;
       }
     }
   }
@@ -103,7 +100,7 @@ class CcdDetection final : public Detection {
   ccd_t ccd_;
 };
 
-template <int (*kIntersect)(const void*, const void*, const ccd_t*)>
+template <int (*Intersect)(const void*, const void*, const ccd_t*)>
 Detector entry(std::string_view name, std::string_view label, std::string_view what) {
   return {.name = name,
           .label = label,
@@ -114,7 +111,7 @@ Detector entry(std::string_view name, std::string_view label, std::string_view w
           .multiplications =
               [](const WorkloadSize&) { return std::numeric_limits<double>::quiet_NaN(); },
           .prepare = [](const Workload& workload) -> std::unique_ptr<Detection> {
-            return std::make_unique<CcdDetection<kIntersect>>(workload);
+            return std::make_unique<CcdDetection<Intersect>>(workload);
           }};
 }
 

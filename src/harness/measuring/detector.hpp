@@ -45,8 +45,9 @@ struct Detector {
   bool in_space;  ///< and of dimension 3
 
   /// Multiplications a pair of link and obstacle, counted by the rule of the paper's section 3.4: the
-  /// quadratic and its discriminant, or all pairs of test points (verified by an instrumented scalar);
-  /// not a number for libraries and iterations.
+  /// quadratic and its discriminant, or all pairs of test points (verified by an instrumented scalar).
+  /// The paper's forms make 7 more for its criteria at the ends of the link, which that rule leaves out.
+  /// Not a number for libraries and iterations.
   double (*multiplications)(const WorkloadSize& size);
 
   bool is_for(int dimension) const { return dimension == 2 ? in_plane : in_space; }

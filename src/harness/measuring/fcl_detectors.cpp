@@ -130,7 +130,8 @@ class PairwiseDetection final : public Detection {
   Query query_;
 };
 
-/// Pairs are asked whose boxes meet, found by FCL's tree of boxes over the obstacles.
+/// Pairs are asked whose boxes meet, found by FCL's tree of boxes over the obstacles. The box of a turned
+/// object is to FCL a cube around its bounding sphere.
 template <typename Query>
 class BroadphaseDetection final : public Detection {
  public:
@@ -195,9 +196,9 @@ void BroadphaseDetection<DistanceQuery>::detect(int pose, std::span<std::uint8_t
   }
 }
 
-template <typename Detection, fcl::GJKSolverType kSolver>
+template <typename Detection, fcl::GJKSolverType Solver>
 std::unique_ptr<bqsa::harness::Detection> prepare(const Workload& workload) {
-  return std::make_unique<Detection>(workload, kSolver);
+  return std::make_unique<Detection>(workload, Solver);
 }
 
 Detector entry(std::string_view name, std::string_view label, std::string_view what,

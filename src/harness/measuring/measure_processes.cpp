@@ -43,6 +43,7 @@ class ScratchDirectory {
 /// Waits for the end of the program and says what was wrong with it; empty if nothing.
 std::string fault_of(std::vector<std::string> words) {
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   pid_t child = -1;

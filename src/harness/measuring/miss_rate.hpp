@@ -12,16 +12,18 @@
 
 namespace bqsa::harness {
 
-/// Which pairs of link and obstacle are asked about. Links are 0.3 m long, obstacles have semi-axes of 6
-/// to 16 cm (workload.hpp).
+/// Which pairs of link and obstacle are asked about. Links are 0.3 m long, obstacles have semi-axes of 5
+/// to 25 cm, as those of `make_workload`, whose pairs are of the first population.
 enum class Population {
-  /// Links of any place and direction: hits of every depth, most of them deep. The hits of a random
-  /// configuration, as a planner asks about.
+  /// Links of any place and direction: hits of every depth. What a random configuration has, as a planner
+  /// asks about. Links wholly inside an obstacle are missed however many points there are on its surface:
+  /// one hit in seventy in the plane.
   kAnywhere,
 
-  /// Links that run into the obstacle, in any direction, in steps of `kSweepStep`: the last step in
-  /// which they are still free, and the first in which they are not. The hits that a controller has to
-  /// see, which asks at every step and acts on the first; shallow, and the harder for it.
+  /// Links that run into the obstacle, in any direction, in steps of `kSweepStep`: the last step in which
+  /// they are still free, and the first in which they are not. The hits that a controller has to see,
+  /// which asks at every step and acts on the first. Shallow, and therefore easier on test points: where
+  /// link and surface touch they run side by side, within the margin of each other for longer.
   kFirstContact,
 };
 
@@ -51,8 +53,7 @@ struct MissRate {
 /// Pairs drawn once, to ask any number of detectors.
 class PairPopulation {
  public:
-  /// 65,536 links and obstacles (of kFirstContact: those that run into each other, twice each): 256
-  /// links around each of 256 obstacles. The same on all machines.
+  /// 256 links around each of 256 obstacles; for kFirstContact only those that run into it, twice each.
   PairPopulation(Population population, int dimension, std::uint64_t seed);
 
   /// @param test_points  N and M

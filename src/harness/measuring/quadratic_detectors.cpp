@@ -10,8 +10,8 @@
 namespace bqsa::harness {
 namespace {
 
-/// Runs `kPass` on all obstacles, which are known as `Obstacle`s.
-template <int Dim, typename Obstacle, auto kPass>
+/// Runs `Pass` on all obstacles, which are known as `Obstacle`s.
+template <int Dim, typename Obstacle, auto Pass>
 class QuadraticDetection final : public Detection {
  public:
   QuadraticDetection(const Workload& workload, Obstacle (*known_as)(const Ellipsoid&))
@@ -21,7 +21,7 @@ class QuadraticDetection final : public Detection {
 
   void detect(int pose, std::span<std::uint8_t> hit) override {
     assert(hit.size() == obstacles_.size() * (points_[pose].size() - 1));
-    kPass(obstacles_, points_[pose], hit.data());
+    Pass(obstacles_, points_[pose], hit.data());
   }
 
  private:
@@ -65,9 +65,9 @@ std::unique_ptr<Detection> parameter(const Workload& workload) {
       workload, unit_ball_map<Dim>);
 }
 
-template <auto kPass>
+template <auto Pass>
 std::unique_ptr<Detection> paper(const Workload& workload) {
-  return std::make_unique<QuadraticDetection<2, Conic<double>, kPass>>(workload, conic);
+  return std::make_unique<QuadraticDetection<2, Conic<double>, Pass>>(workload, conic);
 }
 
 std::unique_ptr<Detection> projections(const Workload& workload) {
@@ -122,7 +122,7 @@ std::vector<Detector> quadratic_detectors() {
            }},
       {.name = "bqsa",
        .label = "BQSA",
-       .what = "the quadratic in polar form, end-points shared by links: what the methods run",
+       .what = "the quadratic in polar form, every end-point mapped once for both its links",
        .accuracy = Accuracy::kExact,
        .in_plane = true,
        .in_space = true,

@@ -83,7 +83,8 @@ PaperMean paper_mean(Passes& passes, double budget_s) {
 void verify(const Workload& workload, const std::vector<const Detector*>& detectors, int pairs) {
   const ReferenceAnswers reference = reference_answers(workload, pairs);
   for (const Detector* detector : detectors) {
-    const std::string broken = broken_promise(*detector, verify_detector(*detector, reference));
+    const std::string broken =
+        broken_promise(*detector, verify_detector(*detector, workload, reference));
     if (broken.empty()) continue;
     throw std::runtime_error(fmt::format(
         "nk = {}, NM = {} in {} dimensions: {}; no times are taken", workload.size.pairs(),
@@ -122,8 +123,10 @@ void sweep_detectors(int dimension, const SweepSettings& settings, const SweepPr
     const Workload workload = make_workload(size, kWorkloadSeed);
     verify(workload, chosen, settings.verified_pairs);
     std::vector<Passes> passes;
+    passes.reserve(chosen.size());
     for (const Detector* detector : chosen) passes.emplace_back(*detector, workload);
     std::vector<Contestant> contestants;
+    contestants.reserve(chosen.size());
     for (Passes& one : passes) {
       contestants.push_back({one.name(), [&one](int repetitions) { one.make(repetitions); }});
     }
@@ -170,6 +173,7 @@ void sweep_steps(int dimension, const SweepSettings& settings, const SweepProgre
     if (progress) progress(progress_text(sweep, size));
     sweep.sizes.push_back(size);
     std::vector<ControlLoop> loops;
+    loops.reserve(chosen.size());
     for (const MethodEntry* method : chosen) loops.emplace_back(*method, problem);
     std::vector<Contestant> contestants;
     for (std::size_t c = 0; c < chosen.size(); ++c) {

@@ -179,6 +179,7 @@ std::optional<Estimate> crossover(const Sweep& sweep, std::string_view a, std::s
   bool below = false;
   for (std::size_t p = 0; p < processes_of(a_series); ++p) {
     std::vector<double> log_ratio;
+    log_ratio.reserve(sizes.size());
     for (const std::size_t s : sizes) {
       log_ratio.push_back(std::log(a_series.seconds[s][p] / b_series.seconds[s][p]));
     }

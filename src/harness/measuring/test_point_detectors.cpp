@@ -52,8 +52,8 @@ class TestPointDetection final : public Detection {
   std::vector<Point> obstacles_;
 };
 
-template <void (*kLeastSquaredDistances)(const baselines::PointArrays&,
-                                         const baselines::PointArrays&, double*)>
+template <void (*LeastSquaredDistances)(const baselines::PointArrays&,
+                                        const baselines::PointArrays&, double*)>
 class VectorizedTestPointDetection final : public Detection {
  public:
   explicit VectorizedTestPointDetection(const Workload& workload)
@@ -70,14 +70,19 @@ class VectorizedTestPointDetection final : public Detection {
           arrays(obstacles_, j * obstacle_points, obstacle_points);
       for (int i = 0; i < size_.links; ++i) {
         const int first = (pose * size_.links + i) * link_points;
-        kLeastSquaredDistances(arrays(links_, first, link_points), obstacle, least_.data());
-        hit[static_cast<std::size_t>(j * size_.links + i)] = least_.minCoeff() < kMarginSquared;
+        LeastSquaredDistances(arrays(links_, first, link_points), obstacle, least_.data());
+        hit[pair(i, j)] = least_.minCoeff() < kMarginSquared;
       }
     }
   }
 
  private:
   using Coordinates = Eigen::Matrix<double, Eigen::Dynamic, 3>;  // a column a coordinate, in W [m]
+
+  std::size_t pair(int link, int obstacle) const {
+    return static_cast<std::size_t>(obstacle) * static_cast<std::size_t>(size_.links) +
+           static_cast<std::size_t>(link);
+  }
 
   static baselines::PointArrays arrays(const Coordinates& points, int first, int count) {
     return {points.col(0).data() + first, points.col(1).data() + first,

@@ -13,7 +13,6 @@ namespace bqsa::harness {
 /// How all links lie to all obstacles, in the first poses of a workload, by the judge's exact distance,
 /// which shares no code with any detector.
 struct ReferenceAnswers {
-  const Workload* workload;
   int poses;  ///< that were asked
 
   /// Signed distance of link i and obstacle j in pose p at [(p k + j) n + i] [m].
@@ -21,7 +20,6 @@ struct ReferenceAnswers {
 };
 
 /// @param pairs_at_most  ask whole poses as long as there are no more pairs, one pose in any case
-/// @return refers to the workload, which must outlive it
 ReferenceAnswers reference_answers(const Workload& workload, int pairs_at_most = 50'000);
 
 /// A detector's answers against the reference. Left out are pairs for which its accuracy promises
@@ -32,10 +30,14 @@ struct Verification {
   int missed = 0;        ///< of them
   int free = 0;          ///< by the reference
   int false_alarms = 0;  ///< of them
+  int far_alarms = 0;    ///< of the false alarms: further away than `kTestPointMargin`
   int touching = 0;      ///< left out
   int vertical = 0;      ///< left out
 };
-Verification verify_detector(const Detector& detector, const ReferenceAnswers& reference);
+
+/// @param reference  of this workload, or of one that differs from it in test points only
+Verification verify_detector(const Detector& detector, const Workload& workload,
+                             const ReferenceAnswers& reference);
 
 /// How far from touching, either way, answers are promised to be right [m].
 double touching_band(Accuracy accuracy);
@@ -45,7 +47,7 @@ double touching_band(Accuracy accuracy);
 inline constexpr double kVertical = 1e-5;
 
 /// What the detector promised and did not keep, as `ccd_mpr: missed 3 of 120 hits`; empty if it did.
-/// A workload without a single hit or without a single free pair shows nothing and is not accepted.
+/// Test points may miss, but nothing further away than their margin is a hit to them. A workload without a single hit or without a single free pair shows nothing and is not accepted.
 std::string broken_promise(const Detector& detector, const Verification& verification);
 
 }  // namespace bqsa::harness

@@ -17,11 +17,11 @@ constexpr int kMostLinks = 10;
 constexpr int kFewestPoses = 32;
 constexpr int kFewestPlacedLinks = 1024;
 
-constexpr double kShortestAxis = 0.06;  // semi-axes of obstacles [m]
-constexpr double kLongestAxis = 0.16;
+constexpr double kShortestAxis = 0.05;  // semi-axes of obstacles [m]
+constexpr double kLongestAxis = 0.25;
 
 /// Of the disk or ball that links are in [m]; in space smaller, for as many hits.
-constexpr double arm_radius(int dimension) { return dimension == 2 ? 0.6 : 0.4; }
+constexpr double arm_radius(int dimension) { return dimension == 2 ? 0.75 : 0.5; }
 
 /// Of the disk or ball that the centres of obstacles are in, where links are equally dense [m].
 constexpr double center_radius(int dimension) { return 0.5 * arm_radius(dimension); }

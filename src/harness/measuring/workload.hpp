@@ -37,7 +37,7 @@ WorkloadSize workload_size(int dimension, int pairs, int point_pairs);
 /// Of every link of a workload [m].
 inline constexpr double kLinkLength = 0.3;
 
-/// An arm in many poses, so that no branch predictor learns the answers, among obstacles.
+/// An arm in many poses, so that no answer is always the same, among obstacles.
 struct Workload {
   WorkloadSize size;
 
@@ -48,10 +48,10 @@ struct Workload {
 };
 
 /// Links are in a disk or ball, which they fill about evenly whatever their number; obstacles have their
-/// centres in its middle and semi-axes of 6 to 16 cm. About every eighth pair is a hit in the plane, and
-/// every tenth in space, for every n and k, a few obstacles more or less. (Such a crowd suits no
-/// broadphase, which can leave out free pairs only, and only those whose boxes are apart.) Poses are as
-/// many as make 1024 links, and at least 32.
+/// centres in its middle and semi-axes of 5 to 25 cm. About every eighth pair is a hit in the plane, and
+/// every eleventh in space, for every n and k, more or less if there are but few obstacles. (Such a crowd
+/// suits no broadphase, which can leave out free pairs only, and only those whose boxes are apart.)
+/// Poses are as many as make 1024 links, and at least 32.
 ///
 /// The same on all machines; poses and obstacles do not depend on the numbers of test points, and those
 /// of a smaller n or k are the first ones of a larger.
