@@ -155,7 +155,7 @@ Verdict read_verdict(const YamlValue& yaml) {
 
 std::string read_words(const YamlValue& yaml, const char* key, const char* expected) {
   const YamlValue value = yaml.get(key, expected);
-  const std::string text = value.text();
+  std::string text = value.text();
   if (text.empty()) value.fail(expected);
   return text;
 }

@@ -74,12 +74,12 @@ TEST(ClaimsReport, ReplacesTheBlockAlone) {
 }
 
 TEST(ClaimsReport, RefusesOtherFiles) {
+  const std::string good = record_of("25").dump();
   const TestDirectory directory;
   for (const char* text :
        {"", "{", "[]", "{\"schema\": \"bqsa-claims-result/2\"}", "{\"schema\": 1}"}) {
     EXPECT_THROW(read_claims_record(directory.write("r.json", text)), InputError) << text;
   }
-  const std::string good = record_of("25").dump();
   EXPECT_EQ(read_claims_record(directory.write("r.json", good)).dump(), good);
 }
 

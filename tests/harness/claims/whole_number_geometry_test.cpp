@@ -41,7 +41,9 @@ void compare_with_the_exact_test(std::uint64_t seed) {
   int compared = 0, counts[6] = {};
   for (int pair = 0; pair < 20000; ++pair) {
     const auto ellipsoid = random_ellipsoid<Dim>(generator, 4);
-    const auto p1 = random_point<Dim>(generator, 8), p2 = random_point<Dim>(generator, 8);
+    const int half_width = pair % 2 == 0 ? 8 : 2;
+    const auto p1 = random_point<Dim>(generator, half_width);
+    const auto p2 = random_point<Dim>(generator, half_width);
     const auto u1 = ball_point<Dim>(ellipsoid, p1), u2 = ball_point<Dim>(ellipsoid, p2);
     const Whole radius = ball_radius<Dim>(ellipsoid);
     const BallPosition position = ball_position<Dim>(u1, u2, radius);
@@ -56,7 +58,7 @@ void compare_with_the_exact_test(std::uint64_t seed) {
     ASSERT_EQ(static_cast<int>(category(polar_form_of<Dim>(u1, u2, radius))), exact.category());
     EXPECT_FALSE(position.touches);
   }
-  EXPECT_GT(compared, 17000);
+  EXPECT_GT(compared, 15000);
   for (int c = 1; c <= 5; ++c) EXPECT_GT(counts[c], 100) << "category " << c;
 }
 
