@@ -144,11 +144,13 @@ std::string claims_table(const Json& record) {
     const std::string head =
         fmt::format("{} {:<29} {:<26}", mark_of(claim), claim.at("id").get<std::string>(),
                     claim.at("verdict").get<std::string>());
-    const std::string source = claim.at("source").get<std::string>() + ": ";
-    const std::string statement = claim.at("statement");
-    text += head +
-            shortened(source + statement, std::max<std::size_t>(30, kTableWidth - head.size())) +
-            '\n' + wrapped(fmt::format("{}", fmt::join(key_figures(claim), "; ")), kIndent);
+    const std::string what = fmt::format("{}: {}", claim.at("source").get<std::string>(),
+                                         claim.at("statement").get<std::string>());
+    constexpr std::size_t kLeastRoom = 30;
+    text += head;
+    text += shortened(what, std::max(kLeastRoom, kTableWidth - head.size()));
+    text += '\n';
+    text += wrapped(fmt::format("{}", fmt::join(key_figures(claim), "; ")), kIndent);
     if (!claim.at("reason").get<std::string>().empty()) {
       text += wrapped("not decided here: " + claim.at("reason").get<std::string>(), kIndent);
     }

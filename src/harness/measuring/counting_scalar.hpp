@@ -30,23 +30,23 @@ class CountingScalar {
   }
   friend CountingScalar operator-(const CountingScalar& a) { return -a.value_; }
   friend CountingScalar operator*(const CountingScalar& a, const CountingScalar& b) {
-    ++multiplications_;
+    ++multiplication_count;
     return a.value_ * b.value_;
   }
   friend CountingScalar operator/(const CountingScalar& a, const CountingScalar& b) {
-    ++divisions_;
+    ++division_count;
     return a.value_ / b.value_;
   }
   friend auto operator<=>(const CountingScalar&, const CountingScalar&) = default;
 
-  static std::uint64_t multiplications() { return multiplications_; }
-  static std::uint64_t divisions() { return divisions_; }
-  static void reset() { multiplications_ = divisions_ = 0; }
+  static std::uint64_t multiplications() { return multiplication_count; }
+  static std::uint64_t divisions() { return division_count; }
+  static void reset() { multiplication_count = division_count = 0; }
 
  private:
   double value_ = 0;
-  inline static std::uint64_t multiplications_ = 0;
-  inline static std::uint64_t divisions_ = 0;
+  inline static std::uint64_t multiplication_count = 0;
+  inline static std::uint64_t division_count = 0;
 };
 
 }  // namespace bqsa::harness
@@ -57,5 +57,7 @@ struct Eigen::NumTraits<bqsa::harness::CountingScalar> : Eigen::NumTraits<double
   using NonInteger = bqsa::harness::CountingScalar;
   using Nested = bqsa::harness::CountingScalar;
   using Literal = double;
-  enum { RequireInitialization = 1 };
+  enum {
+    RequireInitialization = 1
+  };  // NOLINT(readability-identifier-naming): the name that Eigen asks for
 };
