@@ -57,7 +57,6 @@ struct Eigen::NumTraits<bqsa::harness::CountingScalar> : Eigen::NumTraits<double
   using NonInteger = bqsa::harness::CountingScalar;
   using Nested = bqsa::harness::CountingScalar;
   using Literal = double;
-  enum {
-    RequireInitialization = 1
-  };  // NOLINT(readability-identifier-naming): the name that Eigen asks for
+  // NOLINTNEXTLINE(readability-identifier-naming): the name that Eigen asks for
+  enum { RequireInitialization = 1 };
 };

@@ -138,6 +138,23 @@ TEST(Evaluation, WideIntervalsBreakNothingOnALoadedMachine) {
   EXPECT_TRUE(evaluation_of(kGate + kLinear, sweeps_of_power(1.5), loaded).broken);
 }
 
+/// All but those on times and the one on random problems, which takes longest.
+TEST(Evaluation, OfTheRepositorysClaimsGivesWhatIsExpected) {
+  std::vector<Claim> claims = load_claims(BQSA_SOURCE_DIR "/claims.yaml");
+  std::erase_if(claims, [](const Claim& one) {
+    return one.timing() || one.calls[0].estimator->name == "random_problems";
+  });
+  EXPECT_GE(claims.size(), 35u);
+  const std::vector<Sweep> none;
+  Laboratory laboratory({.scenarios = BQSA_SOURCE_DIR "/scenarios"}, methods(), none);
+  for (const EvaluatedClaim& one : evaluate(claims, laboratory, {})) {
+    EXPECT_EQ(one.verdict, one.claim->expected) << one.claim->id;
+    for (const Outcome outcome : one.as_stated) {
+      if (one.verdict == Verdict::kConfirmed) EXPECT_EQ(outcome, Outcome::kHolds);
+    }
+  }
+}
+
 TEST(Evaluation, NamesTheClaimOfAnArgumentThatMeansNothing) {
   try {
     evaluation_of(claim("{name: run, scenario: planar_7r, method: nothing}",
