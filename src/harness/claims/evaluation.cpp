@@ -12,6 +12,7 @@ namespace {
 std::vector<Outcome> outcomes_of(const std::vector<Bound>& bounds,
                                  const std::vector<Figure>& figures) {
   std::vector<Outcome> outcomes;
+  outcomes.reserve(bounds.size());
   for (const Bound& bound : bounds) outcomes.push_back(outcome_of(bound, figures));
   return outcomes;
 }
@@ -32,7 +33,8 @@ EvaluatedClaim evaluate_one(const Claim& claim, Laboratory& laboratory) {
     }
     for (std::string& remark : findings.remarks) {
       const std::string whose = call.prefix.substr(0, call.prefix.find('.'));
-      result.remarks.push_back(whose.empty() ? std::move(remark) : whose + ": " + remark);
+      result.remarks.push_back(whose.empty() ? std::move(remark)
+                                             : fmt::format("{}: {}", whose, remark));
     }
   }
   result.as_stated = outcomes_of(claim.as_stated, result.figures);

@@ -129,7 +129,7 @@ inline Conic<Whole> conic_of(const WholeEllipsoid<2>& ellipse) {
 /// Whole numbers from -half_width to half_width.
 template <int Dim>
 WholeVector<Dim> random_point(std::mt19937_64& generator, int half_width) {
-  const auto range = static_cast<std::uint64_t>(2 * half_width + 1);
+  const auto range = 2 * static_cast<std::uint64_t>(half_width) + 1;
   WholeVector<Dim> point;
   for (Whole& coordinate : point) {
     coordinate = static_cast<Whole>(generator() % range) - half_width;
