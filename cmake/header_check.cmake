@@ -14,5 +14,5 @@ if(BQSA_CHECK_HEADERS)
   bqsa_target(header_check)
   target_include_directories(header_check SYSTEM PRIVATE ${OMPL_INCLUDE_DIR})
   target_link_libraries(header_check PRIVATE
-    program measuring fcl yaml-cpp nlohmann_json::nlohmann_json CLI11::CLI11 fmt::fmt)
+    program claims measuring fcl yaml-cpp nlohmann_json::nlohmann_json CLI11::CLI11 fmt::fmt)
 endif()

@@ -18,8 +18,9 @@
 namespace bqsa::harness {
 namespace {
 
-constexpr std::array<std::string_view, 6> kSweepNames{"plane_nm", "plane_nk", "space_nm",
-                                                      "space_nk", "step_nk",  "space_step_nk"};
+constexpr std::string_view kGate = "gate";
+constexpr std::array<std::string_view, 7> kSweepNames{
+    "plane_nm", "plane_nk", "space_nm", "space_nk", "step_nk", "space_step_nk", kGate};
 
 constexpr std::array kSteps{1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10'000};
 constexpr int kPairs = 27;        ///< nk where NM varies (paper, Fig. 5)
@@ -178,6 +179,25 @@ void sweep_steps(int dimension, const SweepSettings& settings, const SweepProgre
   }
 }
 
+/// What the gate has to call a tie, and what a difference.
+void sweep_gate(const SweepSettings& settings, const SweepProgress& progress, Sweep& sweep) {
+  if (progress) progress(sweep.name);
+  const WorkloadSize size = workload_size(2, kPairs, kPointPairs);
+  const Workload workload = make_workload(size, kWorkloadSeed);
+  const Detector& detector = detector_named("bqsa");
+  verify(workload, {&detector}, settings.verified_pairs);
+  Passes once(detector, workload), again(detector, workload), half_more(detector, workload);
+  sweep.sizes.push_back(size);
+  for (const char* name : {"once", "once_again", "half_more"}) {
+    sweep.series.push_back({.name = name, .seconds = {}, .paper_seconds = {}});
+  }
+  add(run_contest({{"once", [&](int passes) { once.make(passes); }},
+                   {"once_again", [&](int passes) { again.make(passes); }},
+                   {"half_more", [&](int passes) { half_more.make(passes + (passes + 1) / 2); }}},
+                  settings.contest),
+      sweep);
+}
+
 }  // namespace
 
 std::span<const std::string_view> sweep_names() { return kSweepNames; }
@@ -199,7 +219,9 @@ Sweep run_sweep(std::string_view name, const SweepSettings& settings,
         fmt::format("sweep: expected one of {}, got '{}'", fmt::join(kSweepNames, ", "), name));
   }
   const int dimension = name.starts_with("space") ? 3 : 2;
-  if (is_of_steps(name)) {
+  if (name == kGate) {
+    sweep_gate(settings, progress, sweep);
+  } else if (is_of_steps(name)) {
     sweep_steps(dimension, settings, progress, sweep);
   } else {
     sweep_detectors(dimension, settings, progress, sweep);

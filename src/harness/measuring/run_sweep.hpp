@@ -16,7 +16,9 @@ namespace bqsa::harness {
 /// - `plane_nm`, `space_nm`: a pass of each detector over all pairs, NM from 1 to 10,000, nk = 27;
 /// - `plane_nk`, `space_nk`: the same, nk from 1 to 10,000, NM = 600;
 /// - `step_nk`, `space_step_nk`: a control step of each reactive method, a planar and a spatial arm
-///   among bystanders, nk from 7 (8) to 7,000 (4,000).
+///   among bystanders, nk from 7 (8) to 7,000 (4,000);
+/// - `gate`: a pass of `bqsa` (`once`) against another of the same (`once_again`) and against one and a half
+///   passes (`half_more`): what a gate on ratios has to call a tie and a difference.
 std::span<const std::string_view> sweep_names();
 
 /// Whether its times are those of control steps, not of passes of a detector.

@@ -17,8 +17,9 @@ namespace bqsa::harness {
 namespace {
 
 constexpr const char* kFooter =
-    "Exit status: 0 done, 1 a run failed (with --strict), a law is broken (conform) or something\n"
-    "got worse (compare), 2 bad input or results not written.";
+    "Exit status: 0 done, 1 a run failed (with --strict), a law is broken (conform), something "
+    "got\n"
+    "worse (compare) or a claim no longer holds (claims), 2 bad input or results not written.";
 
 constexpr int kMostGenerated = 100'000;  // the index in a name has five digits
 
@@ -58,6 +59,9 @@ struct CommandLine {
   FiguresOptions figures;
   MeasureOptions measure;
   CompareOptions compare;
+  ClaimsOptions claims;
+  std::filesystem::path claims_result;
+  std::filesystem::path claims_into;
   ReportOptions report;
   std::filesystem::path scenario_directory;
   std::filesystem::path results_directory;
@@ -277,6 +281,34 @@ void declare(CLI::App& app, CommandLine& line) {
     };
   });
 
+  CLI::App* claims = add_command(
+      app, "claims", "Evaluate the paper's claims: figures, bounds, verdicts (docs/claims.md)");
+  CLI::Option* quick_claims =
+      claims->add_flag("--quick", line.quick, "Two or three minutes [the default]");
+  claims->add_flag("--full", line.claims.full, "More samples and processes: an hour")
+      ->excludes(quick_claims);
+  claims->add_option("--claims", line.claims.claims, "Claims file [./claims.yaml]");
+  claims->add_option("--measurements", line.claims.measurements,
+                     "Times as measure wrote them [measured afresh]");
+  claims->add_option("--only", line.claims.only, "Id of a claim, shown in full; repeatable [all]")
+      ->allow_extra_args(false);
+  claims->add_option("--scenarios", line.claims.scenarios, "Directory of scenarios [./scenarios]");
+  claims->add_option("--out,-o", line.claims.directory, "Directory for claims.json and claims.md");
+  CLI::Option* render = claims->add_option("--render", line.claims_result,
+                                           "Evaluate nothing: print this claims.json as Markdown");
+  claims
+      ->add_option("--into", line.claims_into,
+                   "With --render: replace what stands between <!-- claims --> and\n"
+                   "<!-- /claims --> of this file")
+      ->needs(render);
+  claims->callback([&line] {
+    line.command = [&line](const Console& console) {
+      return line.claims_result.empty()
+                 ? claims_command(line.methods, line.claims, console)
+                 : render_claims_command(line.claims_result, line.claims_into, console);
+    };
+  });
+
   CLI::App* generate =
       add_command(app, "generate", "Write random scenarios of a family (docs/generator.md)");
   generate->add_option("--family", line.generate.family, "Family of scenarios, see list")
@@ -355,6 +387,7 @@ int run_program(int argc, const char* const* argv, const Console& console,
     line.run.command_line = command_line_text(argc, argv);
     line.figures.command_line = line.run.command_line;
     line.measure.command_line = line.run.command_line;
+    line.claims.command_line = line.run.command_line;
     declare(app, line);
     try {
       app.parse(argc, argv);

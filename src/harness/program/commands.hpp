@@ -17,9 +17,10 @@ namespace bqsa::harness {
 /// Exit status of the program.
 enum Status {
   kOk = 0,
-  kRunFailed = 1,  ///< conform: a law is broken; compare: something got worse; with --strict: a run
-                   ///< was not judged a success
-  kBadInput = 2,   ///< input that cannot be used, or results that cannot be written
+  kRunFailed =
+      1,  ///< conform: a law is broken; claims: one no longer holds; compare: something got worse; with --strict: a run
+          ///< was not judged a success
+  kBadInput = 2,  ///< input that cannot be used, or results that cannot be written
 };
 
 /// Where the commands write.
@@ -132,6 +133,27 @@ struct CompareOptions {
 /// Prints what is better or worse; anything worse gives kRunFailed.
 /// @throws InputError for anything in the inputs that cannot be read
 Status compare_command(const CompareOptions& options, const Console& console);
+
+struct ClaimsOptions {
+  std::filesystem::path claims = "claims.yaml";
+  std::filesystem::path scenarios = "scenarios";
+  std::filesystem::path measurements;  ///< of `measure`; empty: measured afresh
+  std::filesystem::path directory;     ///< for claims.json and claims.md; empty: not written
+  std::vector<std::string> only;       ///< ids; none means all
+  bool full = false;                   ///< else quick
+  std::string command_line;            ///< as recorded
+};
+
+/// Evaluates the claims of a file and prints a table, or those asked for in full. A verdict that differs
+/// from the one expected gives kRunFailed.
+/// @throws InputError for a bad claims file, before anything is measured
+Status claims_command(const std::vector<MethodEntry>& methods, const ClaimsOptions& options,
+                      const Console& console);
+
+/// Prints the table of an evaluation, DIR/claims.json, as Markdown, or puts it into a file in the place
+/// of its block of claims.
+Status render_claims_command(const std::filesystem::path& result, const std::filesystem::path& into,
+                             const Console& console);
 
 struct GenerateOptions {
   std::string family;

@@ -91,6 +91,11 @@ void add_sweep(const Sweep& sweep, TextTable& table) {
       if (!series.measured(size)) return std::string("-");
       return figure(series.median(size) / kNanosecond / (steps ? 1 : sweep.sizes[size].pairs()));
     };
+    constexpr std::size_t kFewestSizes = 3;
+    if (sweep.sizes.size() < kFewestSizes) {  // the gate's self-test
+      table.add_row({"  " + series.name, time_at(0), time_at(last), "-", "", "", ""});
+      continue;
+    }
     const Estimate exponent = time_exponent(sweep, series.name, sweep.sizes.size() / 2);
     table.add_row(
         {"  " + series.name, time_at(0), time_at(last), fmt::format("{:.3f}", exponent.value),

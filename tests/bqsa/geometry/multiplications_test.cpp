@@ -5,12 +5,12 @@
 
 #include "bqsa/geometry/paper_form.hpp"
 #include "bqsa/geometry/segment_test.hpp"
-#include "support/counting_scalar.hpp"
+#include "harness/measuring/counting_scalar.hpp"
 
 namespace bqsa {
 namespace {
 
-using test_support::CountingScalar;
+using harness::CountingScalar;
 template <int Dim>
 using CountingVector = Eigen::Matrix<CountingScalar, Dim, 1>;
 template <int Dim>

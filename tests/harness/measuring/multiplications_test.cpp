@@ -5,16 +5,15 @@
 #include <cmath>
 
 #include "bqsa/geometry/conic.hpp"
+#include "harness/measuring/counting_scalar.hpp"
 #include "harness/measuring/detector.hpp"
 #include "harness/measuring/quadratic_passes.hpp"
 #include "harness/measuring/test_point_pass.hpp"
 #include "harness/measuring/test_points.hpp"
-#include "support/counting_scalar.hpp"
 
 namespace bqsa::harness {
 namespace {
 
-using test_support::CountingScalar;
 template <int Dim>
 using CountingPoint = Eigen::Matrix<CountingScalar, Dim, 1>;
 

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-namespace bqsa::test_support {
+namespace bqsa::harness {
 
 class CountingScalar {
  public:
@@ -30,32 +30,33 @@ class CountingScalar {
   }
   friend CountingScalar operator-(const CountingScalar& a) { return -a.value_; }
   friend CountingScalar operator*(const CountingScalar& a, const CountingScalar& b) {
-    ++multiplications_;
+    ++multiplication_count;
     return a.value_ * b.value_;
   }
   friend CountingScalar operator/(const CountingScalar& a, const CountingScalar& b) {
-    ++divisions_;
+    ++division_count;
     return a.value_ / b.value_;
   }
   friend auto operator<=>(const CountingScalar&, const CountingScalar&) = default;
 
-  static std::uint64_t multiplications() { return multiplications_; }
-  static std::uint64_t divisions() { return divisions_; }
-  static void reset() { multiplications_ = divisions_ = 0; }
+  static std::uint64_t multiplications() { return multiplication_count; }
+  static std::uint64_t divisions() { return division_count; }
+  static void reset() { multiplication_count = division_count = 0; }
 
  private:
   double value_ = 0;
-  inline static std::uint64_t multiplications_ = 0;
-  inline static std::uint64_t divisions_ = 0;
+  inline static std::uint64_t multiplication_count = 0;
+  inline static std::uint64_t division_count = 0;
 };
 
-}  // namespace bqsa::test_support
+}  // namespace bqsa::harness
 
 template <>
-struct Eigen::NumTraits<bqsa::test_support::CountingScalar> : Eigen::NumTraits<double> {
-  using Real = bqsa::test_support::CountingScalar;
-  using NonInteger = bqsa::test_support::CountingScalar;
-  using Nested = bqsa::test_support::CountingScalar;
+struct Eigen::NumTraits<bqsa::harness::CountingScalar> : Eigen::NumTraits<double> {
+  using Real = bqsa::harness::CountingScalar;
+  using NonInteger = bqsa::harness::CountingScalar;
+  using Nested = bqsa::harness::CountingScalar;
   using Literal = double;
+  // NOLINTNEXTLINE(readability-identifier-naming): the name that Eigen asks for
   enum { RequireInitialization = 1 };
 };

@@ -1,0 +1,18 @@
+/// @file
+/// The estimators by what they rest on.
+#pragma once
+
+#include <vector>
+
+#include "harness/claims/estimator.hpp"
+
+namespace bqsa::harness {
+
+std::vector<Estimator> counting_estimators();    ///< multiplications, counted as they are done
+std::vector<Estimator> timing_estimators();      ///< sweeps
+std::vector<Estimator> geometry_estimators();    ///< lemmas and categories, in whole numbers
+std::vector<Estimator> kinematics_estimators();  ///< the hybrid inverse kinematics
+std::vector<Estimator> run_estimators();         ///< runs of methods on scenarios, judged
+std::vector<Estimator> behaviour_estimators();   ///< what happens within a run, tick by tick
+
+}  // namespace bqsa::harness

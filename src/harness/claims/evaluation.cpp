@@ -1,0 +1,113 @@
+#include "harness/claims/evaluation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace bqsa::harness {
+namespace {
+
+std::vector<Outcome> outcomes_of(const std::vector<Bound>& bounds,
+                                 const std::vector<Figure>& figures) {
+  std::vector<Outcome> outcomes;
+  outcomes.reserve(bounds.size());
+  for (const Bound& bound : bounds) outcomes.push_back(outcome_of(bound, figures));
+  return outcomes;
+}
+
+EvaluatedClaim evaluate_one(const Claim& claim, Laboratory& laboratory) {
+  EvaluatedClaim result{.claim = &claim};
+  for (const EstimatorCall& call : claim.calls) {
+    Findings findings;
+    try {
+      findings = call.estimator->estimate(call.arguments, laboratory);
+    } catch (const InputError& error) {
+      throw InputError(
+          fmt::format("claim {}: estimator {}: {}", claim.id, call.estimator->name, error.what()));
+    }
+    for (Figure& figure : findings.figures) {
+      figure.name = call.prefix + figure.name;
+      result.figures.push_back(std::move(figure));
+    }
+    for (std::string& remark : findings.remarks) {
+      const std::string whose = call.prefix.substr(0, call.prefix.find('.'));
+      result.remarks.push_back(whose.empty() ? std::move(remark)
+                                             : fmt::format("{}: {}", whose, remark));
+    }
+  }
+  result.as_stated = outcomes_of(claim.as_stated, result.figures);
+  if (claim.corrected) result.corrected = outcomes_of(claim.corrected->bounds, result.figures);
+  result.verdict = verdict_of(result.as_stated, result.corrected);
+  return result;
+}
+
+/// Why no claim on times can be decided; empty if they can.
+std::string gate_failure(const std::vector<EvaluatedClaim>& claims) {
+  bool gate_there = false;
+  for (const EvaluatedClaim& one : claims) {
+    if (!one.claim->gate) continue;
+    gate_there = true;
+    if (one.verdict != Verdict::kConfirmed) {
+      return fmt::format("the gate's self-test {} was not confirmed", one.claim->id);
+    }
+  }
+  return gate_there ? "" : "the claims file has no self-test of the gate";
+}
+
+void decide_standing(EvaluatedClaim& one, const TimesState& times, const std::string& gate) {
+  const Claim& claim = *one.claim;
+  if (claim.timing() && !claim.gate && !gate.empty()) {
+    one.verdict = Verdict::kUndecided;
+    if (claim.expected != Verdict::kUndecided) one.reason = gate;
+  }
+  if (one.verdict == claim.expected) return;
+  one.standing = Standing::kBroken;
+  if (!claim.timing() || one.verdict != Verdict::kUndecided) {
+    // A self-test that fails says nothing of the program where times are only indicative.
+    const bool excused = claim.gate && !times.reasons_against.empty();
+    if (!excused) return;
+  }
+  if (!one.reason.empty()) {
+    one.standing = Standing::kNotDecidedHere;
+  } else if (!times.measured) {
+    one.standing = Standing::kNotDecidedHere;
+    one.reason = "no times were measured";
+  } else if (!times.reasons_against.empty()) {
+    one.standing = Standing::kNotDecidedHere;
+    one.reason =
+        fmt::format("times are only indicative: {}", fmt::join(times.reasons_against, ", "));
+  }
+}
+
+}  // namespace
+
+const FigureDeclaration* EvaluatedClaim::declaration_of(const Figure& figure) const {
+  for (const EstimatorCall& call : claim->calls) {
+    if (!figure.name.starts_with(call.prefix)) continue;
+    const auto* found = call.estimator->find_figure(figure.name.substr(call.prefix.size()));
+    if (found != nullptr) return found;
+  }
+  return nullptr;
+}
+
+std::vector<EvaluatedClaim> evaluate(const std::vector<Claim>& claims, Laboratory& laboratory,
+                                     const TimesState& times,
+                                     const std::function<void(const Claim&)>& starting) {
+  std::vector<EvaluatedClaim> results;
+  for (const Claim& claim : claims) {
+    if (starting) starting(claim);
+    results.push_back(evaluate_one(claim, laboratory));
+  }
+  const std::string gate = gate_failure(results);
+  for (EvaluatedClaim& one : results) decide_standing(one, times, gate);
+  return results;
+}
+
+bool any_broken(const std::vector<EvaluatedClaim>& claims) {
+  return std::any_of(claims.begin(), claims.end(),
+                     [](const EvaluatedClaim& one) { return one.standing == Standing::kBroken; });
+}
+
+}  // namespace bqsa::harness

@@ -1,0 +1,27 @@
+/// @file
+/// From figures to a verdict, by rule. Pure functions.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "harness/claims/claim.hpp"
+
+namespace bqsa::harness {
+
+enum class Outcome { kHolds, kFails, kUndecided };
+
+/// Holds if all of the figure's interval satisfies the bound, fails if none of it does; else, and for
+/// a figure that is not there or not a number, or a bound that is unknown, it is undecided. A figure
+/// without interval is the interval of its value alone.
+Outcome outcome_of(const Bound& bound, std::span<const Figure> figures);
+
+/// All as stated hold: confirmed. One fails: confirmed with correction if there is a correction all of
+/// whose bounds hold, else refuted. Otherwise not decidable.
+/// @param as_stated  not empty
+/// @param corrected  empty if there is no correction
+Verdict verdict_of(std::span<const Outcome> as_stated, std::span<const Outcome> corrected);
+
+const char* name_of(Outcome outcome);
+
+}  // namespace bqsa::harness
