@@ -14,12 +14,11 @@ std::unique_ptr<ReactiveMethod> prepared(const Problem& problem, const MethodSpe
                                  spec.entry.name, problem.name, why));
   }
   std::unique_ptr<Method> method = spec.entry.make(spec.parameters);
-  auto* const reactive = dynamic_cast<ReactiveMethod*>(method.get());
-  if (reactive == nullptr) {
+  std::unique_ptr<ReactiveMethod> owned(dynamic_cast<ReactiveMethod*>(method.get()));
+  if (owned == nullptr) {
     throw InputError(fmt::format("{}: expected a reactive method, got a planner", spec.entry.name));
   }
-  method.release();
-  std::unique_ptr<ReactiveMethod> owned(reactive);
+  static_cast<void>(method.release());  // now owned
   owned->prepare(problem);
   return owned;
 }

@@ -27,6 +27,7 @@ std::vector<Claim> chosen_claims(const std::vector<Claim>& all,
         std::any_of(all.begin(), all.end(), [&](const Claim& claim) { return claim.id == id; });
     if (known) continue;
     std::vector<std::string> ids;
+    ids.reserve(all.size());
     for (const Claim& claim : all) ids.push_back(claim.id);
     throw InputError(
         fmt::format("--only: expected one of {}, got {}", fmt::join(ids, ", "), excerpt(id)));
