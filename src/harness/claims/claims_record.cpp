@@ -111,7 +111,7 @@ Json claims_record(const std::vector<EvaluatedClaim>& claims, const EvaluationOr
                           {"effort", origin.measured->effort},
                           {"build", build_json(origin.measured->build)},
                           {"machine", machine_json(origin.measured->before)},
-                          {"load_after", origin.measured->load_after},
+                          {"other_cores", origin.measured->other_cores},
                           {"against", origin.measured->against}};
   }
   record["claims"] = list;

@@ -16,10 +16,10 @@ TimesOrigin times_origin(const MeasurementOrigin& origin) {
                              origin.build.dirty ? ", modified" : "", origin.build.compiler,
                              origin.before.processor, origin.before.date, origin.effort);
   text.against = fmt::format("{}", fmt::join(origin.against, ", "));
-  text.lines = {
-      text.caption,
-      fmt::format("flags {}; governor {}; load {:.2f} before, {:.2f} after; {}", origin.build.flags,
-                  origin.before.governor, origin.before.load, origin.load_after, origin.before.os)};
+  text.lines = {text.caption,
+                fmt::format("flags {}; governor {}; others kept {:.2f} of {} cores busy; {}",
+                            origin.build.flags, origin.before.governor, origin.other_cores,
+                            origin.before.cores, origin.before.os)};
   if (!text.against.empty()) text.lines.push_back("not publishable: " + text.against);
   return text;
 }

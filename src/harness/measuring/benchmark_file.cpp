@@ -63,6 +63,9 @@ std::string machine_text(const RecordValue& context) {
   return text;
 }
 
+/// Load average before measuring that times of other programs may have.
+constexpr double kMostLoadPerCore = 0.5;
+
 /// Ours say it themselves. Of others only the load is known: Debian builds Google Benchmark so that
 /// `library_build_type` is always `debug`.
 std::vector<std::string> reasons_against(const RecordValue& context) {
@@ -75,7 +78,8 @@ std::vector<std::string> reasons_against(const RecordValue& context) {
     const std::vector<RecordValue> loads = context["load_avg"].list();
     const int cores = context["num_cpus"].integer();
     if (!loads.empty() && loads.front().number() > kMostLoadPerCore * cores) {
-      reasons.push_back(load_text(loads.front().number(), cores, "before"));
+      reasons.push_back(fmt::format("load average {:.2g} on {} cores before measuring",
+                                    loads.front().number(), cores));
     }
   }
   return reasons;

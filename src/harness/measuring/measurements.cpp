@@ -8,22 +8,14 @@
 
 namespace bqsa::harness {
 
-std::string load_text(double load, int cores, std::string_view when) {
-  return fmt::format("load average {:.2g} on {} cores {} measuring", load, cores, when);
-}
-
 std::vector<std::string> reasons_against_measuring(const BuildInfo& build,
-                                                   const MachineState& before,
-                                                   const MachineState& after) {
+                                                   const MachineState& before, double other_cores) {
   MachineState idle = before;
-  idle.load = 0;  // judged more strictly below
+  idle.load = 0;
   std::vector<std::string> reasons = reasons_against_times(build, idle);
-  constexpr double kOurOwn = 1;
-  if (before.load > kMostLoadPerCore * before.cores) {
-    reasons.push_back(load_text(before.load, before.cores, "before"));
-  }
-  if (after.load > kMostLoadPerCore * after.cores + kOurOwn) {
-    reasons.push_back(load_text(after.load, after.cores, "after"));
+  if (other_cores > kMostOtherWork * before.cores) {
+    reasons.push_back(
+        fmt::format("others kept {:.2g} of {} cores busy", other_cores, before.cores));
   }
   return reasons;
 }

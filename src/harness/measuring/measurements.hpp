@@ -11,24 +11,22 @@
 
 namespace bqsa::harness {
 
-/// Short blocks are disturbed by less than whole runs are: load averages from this share of the cores
-/// on are too much, before measuring, and after it beyond the one core that was measuring itself.
-inline constexpr double kMostLoadPerCore = 0.5;
+/// Share of the cores that others may keep busy while we measure: short blocks on one core are disturbed
+/// by less than whole runs are.
+inline constexpr double kMostOtherWork = 0.25;
 
-/// As a reason against times: `load average 2.1 on 4 cores before measuring`.
-std::string load_text(double load, int cores, std::string_view when);
-
-/// Why times are only indicative; empty if they can be published.
+/// Why times are only indicative; empty if they can be published. The load average does not count, which
+/// tells of the minute before too, a build's for instance.
+/// @param other_cores  OtherWork::cores() while measuring
 std::vector<std::string> reasons_against_measuring(const BuildInfo& build,
-                                                   const MachineState& before,
-                                                   const MachineState& after);
+                                                   const MachineState& before, double other_cores);
 
 /// Where measurements come from.
 struct MeasurementOrigin {
   BuildInfo build;
-  MachineState before;    ///< the machine when measuring began
-  double load_after = 0;  ///< load average of the last minute when it ended
-  std::string effort;     ///< `quick` or `full`
+  MachineState before;     ///< the machine when measuring began
+  double other_cores = 0;  ///< OtherWork::cores() while measuring
+  std::string effort;      ///< `quick` or `full`
   std::string command_line;
   std::vector<std::string> against;  ///< reasons_against_measuring()
 };

@@ -43,7 +43,7 @@ Json context_json(const MeasurementOrigin& origin, std::size_t processes) {
         {"against", origin.against},
         {"effort", origin.effort},
         {"processes", processes},
-        {"load_after", origin.load_after},
+        {"other_cores", origin.other_cores},
         {"version", build.version},
         {"commit", build.commit},
         {"dirty", build.dirty},

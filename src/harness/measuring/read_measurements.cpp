@@ -38,7 +38,7 @@ MeasurementOrigin read_origin(const RecordValue& context) {
                                       .load = std::numeric_limits<double>::quiet_NaN(),
                                       .os = bqsa["os"].text(),
                                       .date = context["date"].text()},
-                           .load_after = bqsa["load_after"].number(),
+                           .other_cores = bqsa["other_cores"].number(),
                            .effort = bqsa["effort"].text(),
                            .command_line = bqsa["command_line"].text(),
                            .against = {}};

@@ -6,6 +6,7 @@
 
 #include "harness/measuring/measure_processes.hpp"
 #include "harness/measuring/measurements.hpp"
+#include "harness/measuring/other_work.hpp"
 #include "harness/measuring/run_sweep.hpp"
 #include "harness/program/commands.hpp"
 #include "harness/results/text_table.hpp"
@@ -137,14 +138,14 @@ Status measure_command(const MeasureOptions& options, const Console& console) {
                                        .command_line = options.command_line,
                                        .against = {}},
                             .sweeps = {}};
+  const OtherWork other_work;
   const bool is_one_of_several = options.process > 0;
   measurements.sweeps = is_one_of_several
                             ? measure_here(options, console)
                             : measure_processes(own_command(options), processes_of(options));
-  const MachineState after = machine_state();
-  measurements.origin.load_after = after.load;
-  measurements.origin.against =
-      reasons_against_measuring(build_info(), measurements.origin.before, after);
+  measurements.origin.other_cores = other_work.cores();
+  measurements.origin.against = reasons_against_measuring(build_info(), measurements.origin.before,
+                                                          measurements.origin.other_cores);
   write_text_file(options.out, measurements_json(measurements));
   if (!is_one_of_several) print(measurements, console.out);
   return kOk;

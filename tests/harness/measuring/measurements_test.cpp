@@ -54,7 +54,7 @@ Measurements example() {
   steps.series = {{.name = "qp", .seconds = {{3e-6, 4e-6}}, .paper_seconds = {}}};
   return {.origin = {.build = release_build(),
                      .before = idle_machine(),
-                     .load_after = 0.9,
+                     .other_cores = 0.25,
                      .effort = "quick",
                      .command_line = "bqsa-bench measure",
                      .against = {"a reason"}},
@@ -87,7 +87,7 @@ TEST_F(MeasurementsFile, ReadsWhatWasWritten) {
   EXPECT_EQ(read.origin.build.libraries, original.origin.build.libraries);
   EXPECT_EQ(read.origin.before.processor, "Some Processor");
   EXPECT_EQ(read.origin.before.load, 0.1);
-  EXPECT_EQ(read.origin.load_after, 0.9);
+  EXPECT_EQ(read.origin.other_cores, 0.25);
   EXPECT_THAT(read.origin.against, ElementsAre("a reason"));
   ASSERT_EQ(read.sweeps.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -201,22 +201,17 @@ TEST(Pooling, PutsProcessesSideBySide) {
   EXPECT_THROW(pool({one, two}), std::runtime_error);
 }
 
-TEST(ReasonsAgainstMeasuring, AreStricterAboutTheLoadThanThoseAgainstRuns) {
-  const MachineState idle = idle_machine();
-  MachineState busy = idle;
-  EXPECT_TRUE(reasons_against_measuring(release_build(), idle, idle).empty());
-  busy.load = 2.1;  // of 4 cores: too much before, not after, when one of them is our own
-  EXPECT_TRUE(reasons_against_times(release_build(), busy).empty());
-  EXPECT_THAT(reasons_against_measuring(release_build(), busy, idle),
-              ElementsAre("load average 2.1 on 4 cores before measuring"));
-  EXPECT_TRUE(reasons_against_measuring(release_build(), idle, busy).empty());
-  busy.load = 3.1;
-  EXPECT_THAT(reasons_against_measuring(release_build(), idle, busy),
-              ElementsAre("load average 3.1 on 4 cores after measuring"));
+TEST(ReasonsAgainstMeasuring, AreTheBuildAndTheWorkOfOthers) {
+  MachineState machine = idle_machine();
+  EXPECT_TRUE(reasons_against_measuring(release_build(), machine, 1.0).empty());  // of 4 cores
+  EXPECT_THAT(reasons_against_measuring(release_build(), machine, 1.1),
+              ElementsAre("others kept 1.1 of 4 cores busy"));
+  machine.load = 9;  // a build that has ended
+  EXPECT_TRUE(reasons_against_measuring(release_build(), machine, 0.1).empty());
   BuildInfo debug = release_build();
   debug.build_type = "Debug";
   debug.assertions = true;
-  EXPECT_THAT(reasons_against_measuring(debug, idle, idle),
+  EXPECT_THAT(reasons_against_measuring(debug, machine, 0.1),
               ElementsAre("build type Debug", "assertions on"));
 }
 
