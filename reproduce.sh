@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # From a fresh clone on Debian 12 to the results: installs what is missing, builds, runs the variants on a
-# few hundred random problems and all methods on the paper's scenarios, prints summary and table.
+# few hundred random problems and all methods on the paper's scenarios, measures times, draws the paper's
+# figures and judges its claims; prints summary, table and claims. Ends with 1 if a claim no longer holds.
 set -euo pipefail
 cd "$(dirname "$0")"
 start=$SECONDS
@@ -25,8 +26,18 @@ echo
   --method test_point:law=gradient_projection,n=50,m=2000,influence=0.08,gradient_gain=600
 "$program" show "$out"
 
+echo
+echo "measuring detectors and control steps (about a minute)"
+"$program" measure --quick --out "$out/measurements.json" > "$out/measurements.txt"
+"$program" figures --measurements "$out/measurements.json" --out "$out/figures"
+echo
+status=0
+"$program" claims --quick --measurements "$out/measurements.json" --out "$out/claims" || status=$?
+
 seconds=$((SECONDS - start))
 echo
 echo "results: $out (runs.jsonl, trajectories); show them again: $program show $out"
 echo "random problems: $program show $out/random_problems --summary (or --failures)"
+echo "times: $out/measurements.txt; figures: $out/figures/index.md; claims: $out/claims/claims.md"
 printf 'elapsed: %d min %d s\n' $((seconds / 60)) $((seconds % 60))
+exit $status

@@ -7,6 +7,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <deque>
 #include <stdexcept>
 
 #include "harness/input_error.hpp"
@@ -18,9 +19,8 @@
 namespace bqsa::harness {
 namespace {
 
-constexpr std::string_view kGate = "gate";
 constexpr std::array<std::string_view, 7> kSweepNames{
-    "plane_nm", "plane_nk", "space_nm", "space_nk", "step_nk", "space_step_nk", kGate};
+    "plane_nm", "plane_nk", "space_nm", "space_nk", "step_nk", "space_step_nk", kGateSweep};
 
 constexpr std::array kSteps{1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10'000};
 constexpr int kPairs = 27;        ///< nk where NM varies (paper, Fig. 5)
@@ -29,6 +29,7 @@ constexpr std::array kBystanders{1, 2, 5, 10, 20, 50, 100, 200, 500, 1000};
 
 constexpr std::uint64_t kWorkloadSeed = 1;
 constexpr int kPaperPasses = 100;
+constexpr int kGateRounds = 10;  ///< times those of other sweeps
 
 bool is_in_the_papers_figures(std::string_view detector) {
   return detector == "test_points" || detector == "bqsa_paper" || detector == "bqsa_projections";
@@ -86,18 +87,18 @@ void verify(const Workload& workload, const std::vector<const Detector*>& detect
   }
 }
 
-/// Adds a contest's medians to the series of the same names, at the next size.
+/// Adds the medians of a contest of all series at all sizes, size by size.
 void add(const std::vector<ContestTimes>& times, Sweep& sweep) {
-  for (std::size_t c = 0; c < times.size(); ++c) {
-    sweep.series[c].seconds.push_back({times[c].median()});
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    sweep.series[i % sweep.series.size()].seconds.push_back({times[i].median()});
   }
 }
 
-std::string progress_text(const Sweep& sweep, const WorkloadSize& size) {
-  return sweep.axis == SweepAxis::kPointPairs
-             ? fmt::format("{} NM = {}", sweep.name, size.point_pairs())
-             : fmt::format("{} nk = {}", sweep.name, size.pairs());
-}
+/// A size of a sweep of detectors, ready to be measured.
+struct DetectorsAtSize {
+  Workload workload;
+  std::vector<Passes> passes;  ///< of each detector; refer to the workload
+};
 
 void sweep_detectors(int dimension, const SweepSettings& settings, const SweepProgress& progress,
                      Sweep& sweep) {
@@ -108,27 +109,29 @@ void sweep_detectors(int dimension, const SweepSettings& settings, const SweepPr
     sweep.series.push_back(
         {.name = std::string(detector.name), .seconds = {}, .paper_seconds = {}});
   }
+  if (progress) progress(sweep.name);
+  std::deque<DetectorsAtSize> all_sizes;  // where addresses stay
+  std::vector<Contestant> contestants;
   for (const int step : kSteps) {
     const WorkloadSize size = sweep.axis == SweepAxis::kPointPairs
                                   ? workload_size(dimension, kPairs, step)
                                   : workload_size(dimension, step, kPointPairs);
-    if (progress) progress(progress_text(sweep, size));
     sweep.sizes.push_back(size);
-    const Workload workload = make_workload(size, kWorkloadSeed);
-    verify(workload, chosen, settings.verified_pairs);
-    std::vector<Passes> passes;
-    passes.reserve(chosen.size());
-    for (const Detector* detector : chosen) passes.emplace_back(*detector, workload);
-    std::vector<Contestant> contestants;
-    contestants.reserve(chosen.size());
-    for (Passes& one : passes) {
-      contestants.push_back({one.name(), [&one](int repetitions) { one.make(repetitions); }});
+    DetectorsAtSize& at = all_sizes.emplace_back(make_workload(size, kWorkloadSeed));
+    verify(at.workload, chosen, settings.verified_pairs);
+    at.passes.reserve(chosen.size());
+    for (const Detector* detector : chosen) {
+      Passes& passes = at.passes.emplace_back(*detector, at.workload);
+      contestants.push_back(
+          {passes.name(), [&passes](int repetitions) { passes.make(repetitions); }});
     }
-    add(run_contest(contestants, settings.contest), sweep);
-    if (!settings.paper_protocol) continue;
-    for (std::size_t c = 0; c < passes.size(); ++c) {
-      if (!is_in_the_papers_figures(passes[c].name())) continue;
-      sweep.series[c].paper_seconds.push_back(paper_mean(passes[c]));
+  }
+  add(run_contest(contestants, settings.contest), sweep);
+  if (!settings.paper_protocol) return;
+  for (DetectorsAtSize& at : all_sizes) {
+    for (std::size_t c = 0; c < at.passes.size(); ++c) {
+      if (!is_in_the_papers_figures(at.passes[c].name())) continue;
+      sweep.series[c].paper_seconds.push_back(paper_mean(at.passes[c]));
       sweep.series[c].paper_passes.push_back(kPaperPasses);
     }
   }
@@ -158,24 +161,24 @@ void sweep_steps(int dimension, const SweepSettings& settings, const SweepProgre
     chosen.push_back(&method);
     sweep.series.push_back({.name = method.name, .seconds = {}, .paper_seconds = {}});
   }
+  if (progress) progress(sweep.name);
+  std::deque<Problem> problems;  // where addresses stay, as with the loops
+  std::deque<ControlLoop> loops;
+  std::vector<Contestant> contestants;
   for (const int k : kBystanders) {
-    Problem problem = lonely;
+    Problem& problem = problems.emplace_back(lonely);
     problem.obstacles.assign(bystanders.begin(), bystanders.begin() + k);
-    const WorkloadSize size{.dimension = dimension,
-                            .links = static_cast<int>(lonely.chain.links().size()),
-                            .obstacles = k};
-    if (progress) progress(progress_text(sweep, size));
-    sweep.sizes.push_back(size);
-    std::vector<ControlLoop> loops;
-    loops.reserve(chosen.size());
-    for (const MethodEntry* method : chosen) loops.emplace_back(*method, problem);
-    std::vector<Contestant> contestants;
-    for (std::size_t c = 0; c < chosen.size(); ++c) {
-      ControlLoop& loop = loops[c];
-      contestants.push_back({chosen[c]->name, [&loop](int steps) { loop.run(steps); }});
+    sweep.sizes.push_back({.dimension = dimension,
+                           .links = static_cast<int>(lonely.chain.links().size()),
+                           .obstacles = k});
+    for (const MethodEntry* method : chosen) {
+      ControlLoop& loop = loops.emplace_back(*method, problem);
+      contestants.push_back({method->name, [&loop](int steps) { loop.run(steps); }});
     }
-    add(run_contest(contestants, settings.contest), sweep);
-    for (std::size_t c = 0; c < chosen.size(); ++c) verify(*chosen[c], lonely, loops[c]);
+  }
+  add(run_contest(contestants, settings.contest), sweep);
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    verify(*chosen[i % chosen.size()], lonely, loops[i]);
   }
 }
 
@@ -191,10 +194,13 @@ void sweep_gate(const SweepSettings& settings, const SweepProgress& progress, Sw
   for (const char* name : {"once", "once_again", "half_more"}) {
     sweep.series.push_back({.name = name, .seconds = {}, .paper_seconds = {}});
   }
+  ContestSettings contest = settings.contest;
+  contest.rounds *= kGateRounds;  // three contestants alone would be through in no time
+  contest.budget_s *= kGateRounds;
   add(run_contest({{"once", [&](int passes) { once.make(passes); }},
                    {"once_again", [&](int passes) { again.make(passes); }},
                    {"half_more", [&](int passes) { half_more.make(passes + (passes + 1) / 2); }}},
-                  settings.contest),
+                  contest),
       sweep);
 }
 
@@ -219,7 +225,7 @@ Sweep run_sweep(std::string_view name, const SweepSettings& settings,
         fmt::format("sweep: expected one of {}, got '{}'", fmt::join(kSweepNames, ", "), name));
   }
   const int dimension = name.starts_with("space") ? 3 : 2;
-  if (name == kGate) {
+  if (name == kGateSweep) {
     sweep_gate(settings, progress, sweep);
   } else if (is_of_steps(name)) {
     sweep_steps(dimension, settings, progress, sweep);

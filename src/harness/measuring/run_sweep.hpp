@@ -21,6 +21,9 @@ namespace bqsa::harness {
 ///   passes (`half_more`): what a gate on ratios has to call a tie and a difference.
 std::span<const std::string_view> sweep_names();
 
+/// The sweep that measures nothing but the measuring.
+inline constexpr std::string_view kGateSweep = "gate";
+
 /// Whether its times are those of control steps, not of passes of a detector.
 bool is_of_steps(std::string_view sweep_name);
 
@@ -35,11 +38,11 @@ SweepSettings quick_sweeps();
 /// The paper's 100 passes whatever they take, more and longer blocks; a process of a minute or two.
 SweepSettings full_sweeps();
 
-/// Told what is being measured, as `plane_nm NM = 100`.
+/// Told what is being measured, as `plane_nm`.
 using SweepProgress = std::function<void(const std::string&)>;
 
-/// Everything of one sweep, in this process: all that runs in the plane, or in space, at a size takes
-/// part in one contest there.
+/// Everything of one sweep, in this process: all contestants at all sizes in one contest, so that neither
+/// ratios nor growth depend on how fast the machine was at the time.
 /// @throws InputError for a name that is not one of sweep_names()
 /// @throws std::runtime_error if a detector's answers are wrong, or a method is not left alone by
 ///   bystanders: then there are no times

@@ -67,6 +67,24 @@ TEST(FiguresCommand, WritesThemAllTwiceTheSame) {
   }
 }
 
+TEST(FiguresCommand, DrawsWhatWasMeasured) {
+  const TemporaryDirectory directory;
+  const std::string file = (directory.path() / "m.json").string();
+  const ProgramResult measured = run_bqsa_bench(
+      {"measure", "--processes", "2", "--sweep", "plane_nm", "--sweep", "gate", "--out", file});
+  ASSERT_EQ(measured.status, 0) << measured.err;
+  const std::string out = (directory.path() / "figures").string();
+  const ProgramResult result =
+      run_bqsa_bench({"figures", "--measurements", file, "--scenarios", kScenarios, "--out", out});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.err, IsEmpty());
+  const auto files = files_in(out);
+  for (const std::string name :
+       {"fig05_time_against_nm", "fig05_estimated", "fig05_fair", "time_against_miss_rate"}) {
+    EXPECT_TRUE(files.contains(name + ".png")) << name;
+  }
+}
+
 TEST(FiguresCommand, SaysWhatIsLeftOutWithoutGnuplot) {
   const TemporaryDirectory directory;
   const std::string path = getenv("PATH");
