@@ -116,9 +116,6 @@ Findings pass_multiplications(const Arguments& arguments, Laboratory&) {
   const int links = arguments.whole("links"), obstacles = arguments.whole("obstacles");
   const int N = arguments.whole("points_of_link"), M = arguments.whole("points_of_obstacle");
   check_dimension(dimension);
-  if (links < 1 || obstacles < 1 || N < 1 || M < 1) {
-    throw InputError("links, obstacles, points: expected at least 1 of each, got 0");
-  }
   const PassCounts counts = count_pass(dimension, links, obstacles, N, M);
   const double pairs = links * obstacles;
   const double per_point_pair = counts.points / (pairs * N * M);
@@ -157,9 +154,6 @@ Findings count_ratio(const Arguments& arguments, Laboratory&) {
 Findings missed_collisions(const Arguments& arguments, Laboratory&) {
   const baselines::TestPointCounts counts{.link = arguments.whole("points_of_link"),
                                           .obstacle = arguments.whole("points_of_obstacle")};
-  if (counts.link < 1 || counts.obstacle < 1) {
-    throw InputError("points: expected at least 1 of link and obstacle, got 0");
-  }
   constexpr std::uint64_t kSeed = 1;
   const PairPopulation population(Population::kFirstContact, 2, kSeed);
   const MissRate points = population.ask(detector_named("test_points"), counts);
