@@ -135,6 +135,9 @@ TEST(ClaimsFile, IsRefusedWithLineKeyExpectedAndFound) {
       {", method: bqsa", "",
        "c.yaml:18: claims[1].estimator[0].method: expected a reactive method, M[:key=value,...], "
        "got nothing"},
+      {"samples: 100", "samples: 0",
+       "c.yaml:19: claims[1].estimator[1].samples: expected a whole number from 1 to 100000000, "
+       "got 0"},
       {"samples: 100", "samples: 1.5",
        "c.yaml:19: claims[1].estimator[1].samples: expected a whole number from 1 to 100000000, "
        "got 1.5"},

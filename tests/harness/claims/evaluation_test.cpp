@@ -134,6 +134,12 @@ TEST(Evaluation, WideIntervalsBreakNothingOnALoadedMachine) {
   EXPECT_EQ(excused.standing, Standing::kNotDecidedHere);
   EXPECT_EQ(excused.reason, "times are only indicative: load average 7");
   EXPECT_FALSE(excused.broken);
+  const std::string corrected =
+      claim("{name: time_ratio, sweep: plane_nm, a: points, b: bqsa}",
+            "{figure: last, is: '>', value: 1.0e6}",
+            "corrected: {text: t, bounds: [{figure: last, is: within, from: 0.99, to: 1.01}]}\n"
+            "  expected: confirmed with correction");
+  EXPECT_EQ(evaluation_of(kGate + corrected, noisy, loaded).standing, Standing::kNotDecidedHere);
   // A refutation is one, load or not: ratios come from interleaved blocks.
   EXPECT_TRUE(evaluation_of(kGate + kLinear, sweeps_of_power(1.5), loaded).broken);
 }
