@@ -119,7 +119,7 @@ Findings outer_links(const Arguments& arguments, Laboratory& laboratory) {
   const Figure success = success_of(experiment, laboratory);
   experiment.obstacles = false;
   const Problem open = laboratory.problem(experiment);
-  double beyond_link = 0, beyond_anchor = 0, moved = 0;
+  double beyond_link = 0, beyond_anchor = 0, moved = 0, torn = 0;
   int outer_anchors = 0, compared = 0;
   for (int tick = 1; tick < recorded.rows(); ++tick) {
     const auto index = static_cast<std::size_t>(tick);
@@ -137,18 +137,21 @@ Findings outer_links(const Arguments& arguments, Laboratory& laboratory) {
     outer_anchors += anchor > link_cleared;
     for (const Link& link : open.chain.links()) {
       const double turn = turn_of(link, before, after) / kDegree;
+      const double start_moved =
+          (before.p_WO.col(link.start) - after.p_WO.col(link.start)).norm() / kMillimetre;
+      if (link.number == link_cleared) torn = std::max(torn, start_moved);
       if (link.number > anchor) beyond_anchor = std::max(beyond_anchor, turn);
       if (link.number <= link_cleared) continue;
       ++compared;
       beyond_link = std::max(beyond_link, turn);
-      moved = std::max(
-          moved, (before.p_WO.col(link.start) - after.p_WO.col(link.start)).norm() / kMillimetre);
+      moved = std::max(moved, start_moved);
     }
   }
   return {.figures = {success,
                       {"compared", static_cast<double>(compared)},
                       {"turned", beyond_link},
                       {"moved", moved},
+                      {"torn", torn},
                       {"turned_beyond_anchor", beyond_anchor},
                       {"outer_anchors", static_cast<double>(outer_anchors)}},
           .remarks = {}};
@@ -262,6 +265,8 @@ std::vector<Estimator> behaviour_estimators() {
                    {"compared", "-", "links beyond one that was cleared, over all ticks"},
                    {"turned", "deg", "largest turn of such a link"},
                    {"moved", "mm", "largest way of its inner end"},
+                   {"torn", "mm",
+                    "the same of a link cleared: what re-solved inner links make good"},
                    {"turned_beyond_anchor", "deg", "largest turn of a link beyond the fixed point"},
                    {"outer_anchors", "-", "ticks in which the fixed point lay further out"}},
        .estimate = outer_links},
