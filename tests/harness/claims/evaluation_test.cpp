@@ -119,6 +119,7 @@ TEST(Evaluation, WithoutAGateThatTellsTiesFromDifferencesNoTimeIsJudged) {
   const Evaluation without = evaluation_of(kLinear, sweeps_of_power(1));
   EXPECT_EQ(without.verdict, Verdict::kUndecided);
   EXPECT_EQ(without.reason, "the claims file has no self-test of the gate");
+  EXPECT_TRUE(without.broken) << "whoever takes the gate away silences nothing";
 }
 
 TEST(Evaluation, WideIntervalsBreakNothingOnALoadedMachine) {
