@@ -117,6 +117,7 @@ Findings time_ratios(const Arguments& arguments, Laboratory& laboratory) {
   const std::string& a = arguments.text("a");
   const std::string& b = arguments.text("b");
   std::vector<Estimate> ratios;
+  ratios.reserve(sizes.size());
   for (const std::size_t size : sizes) ratios.push_back(time_ratio(*sweep, a, b, size));
   return {.figures = {figure_of("first", ratios.front()), figure_of("last", ratios.back()),
                       figure_of("least", least_of(ratios)), figure_of("most", most_of(ratios))},
