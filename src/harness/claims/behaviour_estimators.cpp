@@ -11,6 +11,7 @@
 
 #include "harness/claims/estimator_lists.hpp"
 #include "harness/claims/experiment_arguments.hpp"
+#include "harness/claims/pose_categories.hpp"
 #include "harness/statistics/fits.hpp"
 
 namespace bqsa::harness {
@@ -50,25 +51,54 @@ double how_many_beyond(const std::set<PairName>& pairs, const std::set<PairName>
       pairs.begin(), pairs.end(), [&](const PairName& pair) { return !known.contains(pair); }));
 }
 
-/// Which pairs had to be cleared, and which are hit when nothing is avoided.
+/// 1 if the judge calls the run a success: what a method does that collides is no avoidance.
+Figure success_of(const Experiment& experiment, Laboratory& laboratory) {
+  return {"success", laboratory.judgement(experiment).success() ? 1.0 : 0.0};
+}
+
+/// What a step of the run would have been without obstacles.
+StepOutput open_step(const Problem& open, const MethodSpec& method, const RecordedRun& run,
+                     int tick) {
+  const double t = open.time(tick);
+  return single_step(open, method,
+                     {.tick = tick,
+                      .t = t,
+                      .p_WT_desired = open.desired_tip(t),
+                      .q = run.trajectory.q[static_cast<std::size_t>(tick) - 1]});
+}
+
+/// Which pairs had to be cleared, and which are hit when nothing is avoided: in a step, and in all.
 Findings cleared_pairs(const Arguments& arguments, Laboratory& laboratory) {
   const std::set<PairName> known = pairs_named(arguments.text("pairs"));
   Experiment experiment = experiment_of(arguments);
+  const MethodSpec method = laboratory.method(experiment.method);
   const RecordedRun& recorded = laboratory.run(experiment);
+  const Figure success = success_of(experiment, laboratory);
   const auto name = [&](int obstacle) {
     return recorded.problem.obstacles[static_cast<std::size_t>(obstacle)].name;
   };
-  std::set<PairName> cleared, hit;
+  std::set<PairName> cleared, hit_by_step, hit;
   for (const RecordedTick& tick : recorded.ticks) {
     for (const Clamp& clamp : tick.clamps) cleared.insert({clamp.link, name(clamp.obstacle)});
   }
+  experiment.obstacles = false;
+  const Problem open = laboratory.problem(experiment);
+  for (int tick = 1; tick < recorded.rows(); ++tick) {
+    const JointVector q = open_step(open, method, recorded, tick).q;
+    for (const PairCategory& pair : pair_categories(recorded.problem, q, tick)) {
+      if (is_hit(pair.category)) hit_by_step.insert({pair.link, name(pair.obstacle)});
+    }
+  }
+  experiment.obstacles = true;
   experiment.method = "none";
   for (const Contact& contact : laboratory.judgement(experiment).contacts) {
     hit.insert({contact.link, name(contact.obstacle)});
   }
-  return {.figures = {{"pairs", static_cast<double>(cleared.size())},
+  return {.figures = {success,
+                      {"pairs", static_cast<double>(cleared.size())},
                       {"others", how_many_beyond(cleared, known)},
                       {"missing", how_many_beyond(known, cleared)},
+                      {"unreported", how_many_beyond(hit_by_step, cleared)},
                       {"others_hit_without_avoidance", how_many_beyond(hit, known)}},
           .remarks = {"cleared: " + text_of(cleared), "hit without avoidance: " + text_of(hit)}};
 }
@@ -86,9 +116,10 @@ Findings outer_links(const Arguments& arguments, Laboratory& laboratory) {
   Experiment experiment = experiment_of(arguments);
   const MethodSpec method = laboratory.method(experiment.method);
   const RecordedRun& recorded = laboratory.run(experiment);
+  const Figure success = success_of(experiment, laboratory);
   experiment.obstacles = false;
   const Problem open = laboratory.problem(experiment);
-  double beyond_link = 0, beyond_anchor = 0, moved = 0;
+  double beyond_link = 0, beyond_anchor = 0, moved = 0, torn = 0;
   int outer_anchors = 0, compared = 0;
   for (int tick = 1; tick < recorded.rows(); ++tick) {
     const auto index = static_cast<std::size_t>(tick);
@@ -99,29 +130,28 @@ Findings outer_links(const Arguments& arguments, Laboratory& laboratory) {
       link_cleared = std::max(link_cleared, clamp.link);
       anchor = std::max(anchor, clamp.anchor);
     }
-    const double t = open.time(tick);
-    const StepOutput predicted = single_step(open, method,
-                                             {.tick = tick,
-                                              .t = t,
-                                              .p_WT_desired = open.desired_tip(t),
-                                              .q = recorded.trajectory.q[index - 1]});
+    const StepOutput predicted = open_step(open, method, recorded, tick);
     ChainPose before, after;
     open.chain.forward(predicted.q, before);
     open.chain.forward(recorded.trajectory.q[index], after);
     outer_anchors += anchor > link_cleared;
     for (const Link& link : open.chain.links()) {
       const double turn = turn_of(link, before, after) / kDegree;
+      const double start_moved =
+          (before.p_WO.col(link.start) - after.p_WO.col(link.start)).norm() / kMillimetre;
+      if (link.number == link_cleared) torn = std::max(torn, start_moved);
       if (link.number > anchor) beyond_anchor = std::max(beyond_anchor, turn);
       if (link.number <= link_cleared) continue;
       ++compared;
       beyond_link = std::max(beyond_link, turn);
-      moved = std::max(
-          moved, (before.p_WO.col(link.start) - after.p_WO.col(link.start)).norm() / kMillimetre);
+      moved = std::max(moved, start_moved);
     }
   }
-  return {.figures = {{"compared", static_cast<double>(compared)},
+  return {.figures = {success,
+                      {"compared", static_cast<double>(compared)},
                       {"turned", beyond_link},
                       {"moved", moved},
+                      {"torn", torn},
                       {"turned_beyond_anchor", beyond_anchor},
                       {"outer_anchors", static_cast<double>(outer_anchors)}},
           .remarks = {}};
@@ -153,10 +183,12 @@ Jumps jumps_of(const RecordedRun& run) {
 /// shrinks with it; where velocities jump, the largest jump does not.
 Findings velocity_jumps(const Arguments& arguments, Laboratory& laboratory) {
   std::vector<double> periods, steps, jumps, open_jumps;
+  double least_success = 1;
   for (const int refinement : {1, 2, 4, 8}) {
     Experiment experiment = experiment_of(arguments);
     experiment.refinement = refinement;
     const RecordedRun& run = laboratory.run(experiment);
+    least_success = std::min(least_success, success_of(experiment, laboratory).value);
     if (run.rows() != run.problem.ticks + 1) {
       return {.figures = {},
               .remarks = {"the run gave up with " + std::to_string(run.problem.ticks) + " ticks"}};
@@ -167,7 +199,8 @@ Findings velocity_jumps(const Arguments& arguments, Laboratory& laboratory) {
     experiment.obstacles = false;
     open_jumps.push_back(jumps_of(laboratory.run(experiment)).jump);
   }
-  return {.figures = {{"step_exponent", fit_power(periods, steps).exponent},
+  return {.figures = {{"success", least_success},
+                      {"step_exponent", fit_power(periods, steps).exponent},
                       {"jump_exponent", fit_power(periods, jumps).exponent},
                       {"open_jump_exponent", fit_power(periods, open_jumps).exponent},
                       {"step", steps.back()},
@@ -178,7 +211,8 @@ Findings velocity_jumps(const Arguments& arguments, Laboratory& laboratory) {
 
 /// Tip errors of ticks that clear links against those of the others.
 Findings errors_while_avoiding(const Arguments& arguments, Laboratory& laboratory) {
-  const RecordedRun& run = laboratory.run(experiment_of(arguments));
+  const Experiment experiment = experiment_of(arguments);
+  const RecordedRun& run = laboratory.run(experiment);
   const Problem& problem = run.problem;
   double largest[2] = {0, 0}, squares[2] = {0, 0};
   int ticks[2] = {0, 0};
@@ -194,7 +228,8 @@ Findings errors_while_avoiding(const Arguments& arguments, Laboratory& laborator
     squares[avoiding] += error * error;
     ++ticks[avoiding];
   }
-  Findings findings{.figures = {{"ticks_avoiding", static_cast<double>(ticks[1])},
+  Findings findings{.figures = {success_of(experiment, laboratory),
+                                {"ticks_avoiding", static_cast<double>(ticks[1])},
                                 {"ticks_free", static_cast<double>(ticks[0])}},
                     .remarks = {}};
   if (ticks[0] > 0) findings.figures.push_back({"error_free", largest[0]});
@@ -209,29 +244,37 @@ Findings errors_while_avoiding(const Arguments& arguments, Laboratory& laborator
 }  // namespace
 
 std::vector<Estimator> behaviour_estimators() {
+  const FigureDeclaration success{"success", "-", "1 if the run is judged a success"};
   return {
       {.name = "cleared_pairs",
        .what = "Which pairs of link and obstacle a method has to clear",
        .arguments = experiment_arguments(
            {{"pairs", ArgumentKind::kText, {}, "those known, `LINK OBSTACLE, ...`"}}),
-       .figures = {{"pairs", "-", "cleared"},
+       .figures = {success,
+                   {"pairs", "-", "cleared"},
                    {"others", "-", "cleared, but not known"},
                    {"missing", "-", "known, but never cleared"},
+                   {"unreported", "-",
+                    "hit by the same steps without obstacles, but not said to be cleared"},
                    {"others_hit_without_avoidance", "-", "not known, hit by the method `none`"}},
        .estimate = cleared_pairs},
       {.name = "outer_links",
        .what = "What clearing a link changes on the links beyond it, step by step",
        .arguments = experiment_arguments(),
-       .figures = {{"compared", "-", "links beyond one that was cleared, over all ticks"},
+       .figures = {success,
+                   {"compared", "-", "links beyond one that was cleared, over all ticks"},
                    {"turned", "deg", "largest turn of such a link"},
                    {"moved", "mm", "largest way of its inner end"},
+                   {"torn", "mm",
+                    "the same of a link cleared: what re-solved inner links make good"},
                    {"turned_beyond_anchor", "deg", "largest turn of a link beyond the fixed point"},
                    {"outer_anchors", "-", "ticks in which the fixed point lay further out"}},
        .estimate = outer_links},
       {.name = "velocity_jumps",
        .what = "Joint steps and velocity jumps of a run with 1, 2, 4 and 8 ticks in place of one",
        .arguments = experiment_arguments(),
-       .figures = {{"step_exponent", "-", "of the largest step in the period; 1 if continuous"},
+       .figures = {{"success", "-", "1 if all four runs are judged a success"},
+                   {"step_exponent", "-", "of the largest step in the period; 1 if continuous"},
                    {"jump_exponent", "-", "of the largest velocity jump; 0 if discontinuous"},
                    {"open_jump_exponent", "-", "the same without obstacles; 1 if smooth"},
                    {"step", "deg", "largest, shortest period"},
@@ -241,7 +284,8 @@ std::vector<Estimator> behaviour_estimators() {
       {.name = "errors_while_avoiding",
        .what = "Tip errors of ticks in which links are cleared and of the others",
        .arguments = experiment_arguments(),
-       .figures = {{"ticks_avoiding", "-", "in which links are cleared"},
+       .figures = {success,
+                   {"ticks_avoiding", "-", "in which links are cleared"},
                    {"ticks_free", "-", "the others, the beginning left out"},
                    {"error_free", "mm", "largest of the latter"},
                    {"error_avoiding", "mm", "largest of the former"},

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 #include <string>
 #include <utility>
 
+#include "harness/claims/laboratory.hpp"
 #include "harness/scenario/yaml_value.hpp"
 #include "harness/text_file.hpp"
 
@@ -24,7 +26,8 @@ std::string names(const std::vector<Named>& all) {
 
 void read_argument(const YamlValue& value, const ArgumentDeclaration& declaration,
                    Arguments& arguments) {
-  constexpr int kMost = 1'000'000'000;
+  constexpr int kMost = 100'000'000;
+  static_assert(kMost <= std::numeric_limits<int>::max() / Laboratory::kFullFactor);
   switch (declaration.kind) {
     case ArgumentKind::kText:
       arguments.set(declaration.name, value.text());
@@ -33,7 +36,7 @@ void read_argument(const YamlValue& value, const ArgumentDeclaration& declaratio
       arguments.set(declaration.name, fmt::format("{}", value.number()));
       break;
     case ArgumentKind::kWholeNumber:
-      arguments.set(declaration.name, fmt::format("{}", value.whole_number(0, kMost)));
+      arguments.set(declaration.name, fmt::format("{}", value.whole_number(1, kMost)));
       break;
   }
 }

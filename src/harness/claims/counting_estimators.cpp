@@ -1,7 +1,9 @@
 // The counting rule of counting_scalar.hpp: every product of two numbers is one multiplication,
 // products with a constant included; sums, differences and comparisons are free; divisions are told
 // apart. The paper's form writes its products with 2 as sums.
+#include <Eigen/QR>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -116,9 +118,6 @@ Findings pass_multiplications(const Arguments& arguments, Laboratory&) {
   const int links = arguments.whole("links"), obstacles = arguments.whole("obstacles");
   const int N = arguments.whole("points_of_link"), M = arguments.whole("points_of_obstacle");
   check_dimension(dimension);
-  if (links < 1 || obstacles < 1 || N < 1 || M < 1) {
-    throw InputError("links, obstacles, points: expected at least 1 of each, got 0");
-  }
   const PassCounts counts = count_pass(dimension, links, obstacles, N, M);
   const double pairs = links * obstacles;
   const double per_point_pair = counts.points / (pairs * N * M);
@@ -153,13 +152,57 @@ Findings count_ratio(const Arguments& arguments, Laboratory&) {
           .remarks = {}};
 }
 
+/// Coefficients of the quadric {p : (p - c)ᵀ Q (p - c) = 1}, scaled to a constant term of 1: those of Q
+/// and Q c. Q = R diag(1/a²) Rᵀ, R from rotations about one axis after the other.
+/// @param parameters  centre (the origin outside the ellipsoid), semi-axes, angles
+template <int Dim>
+Eigen::VectorXd quadric(const Eigen::VectorXd& parameters) {
+  const Eigen::VectorXd c = parameters.head(Dim), axes = parameters.segment(Dim, Dim);
+  Eigen::MatrixXd R = Eigen::MatrixXd::Identity(Dim, Dim);
+  int angle = 2 * Dim;
+  for (int i = 0; i < Dim; ++i) {
+    for (int j = i + 1; j < Dim; ++j, ++angle) {
+      Eigen::MatrixXd turn = Eigen::MatrixXd::Identity(Dim, Dim);
+      turn(i, i) = turn(j, j) = std::cos(parameters(angle));
+      turn(j, i) = std::sin(parameters(angle));
+      turn(i, j) = -turn(j, i);
+      R = R * turn;
+    }
+  }
+  const Eigen::MatrixXd Q =
+      R * axes.array().square().inverse().matrix().asDiagonal() * R.transpose();
+  Eigen::VectorXd all(Dim * Dim + Dim);
+  all << Q.reshaped(), Q * c;
+  return all / (c.dot(Q * c) - 1);
+}
+
+/// How many parameters change the quadric independently of each other: the rank of its derivative.
+template <int Dim>
+double independent_parameters() {
+  constexpr int kParameters = 2 * Dim + Dim * (Dim - 1) / 2;
+  constexpr double kStep = 1e-5, kThreshold = 1e-6;
+  Eigen::VectorXd at(kParameters);
+  for (int k = 0; k < kParameters; ++k) at(k) = k < Dim ? 3 + k : 0.3 * (k - Dim + 1);
+  Eigen::MatrixXd derivative(Dim * Dim + Dim, kParameters);
+  for (int k = 0; k < kParameters; ++k) {
+    const Eigen::VectorXd step = kStep * Eigen::VectorXd::Unit(kParameters, k);
+    derivative.col(k) = (quadric<Dim>(at + step) - quadric<Dim>(at - step)) / (2 * kStep);
+  }
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(derivative);
+  qr.setThreshold(kThreshold);
+  return static_cast<double>(qr.rank());
+}
+
+Findings ellipsoid_parameters(const Arguments&, Laboratory&) {
+  return {.figures = {{"parameters", independent_parameters<3>()},
+                      {"parameters_of_plane", independent_parameters<2>()}},
+          .remarks = {}};
+}
+
 /// How many first contacts test points miss, and BQSA.
 Findings missed_collisions(const Arguments& arguments, Laboratory&) {
   const baselines::TestPointCounts counts{.link = arguments.whole("points_of_link"),
                                           .obstacle = arguments.whole("points_of_obstacle")};
-  if (counts.link < 1 || counts.obstacle < 1) {
-    throw InputError("points: expected at least 1 of link and obstacle, got 0");
-  }
   constexpr std::uint64_t kSeed = 1;
   const PairPopulation population(Population::kFirstContact, 2, kSeed);
   const MissRate points = population.ask(detector_named("test_points"), counts);
@@ -209,6 +252,11 @@ std::vector<Estimator> counting_estimators() {
        .figures = {{"growth", "-", "of the ratio over that of NM, for NM a hundred times as large"},
                    {"spread_over_pairs", "-", "largest ratio over least for nk from 1 to 400"}},
        .estimate = count_ratio},
+      {.name = "ellipsoid_parameters",
+       .what = "Rank of the derivative of an ellipsoid's quadric by centre, semi-axes and angles",
+       .arguments = {},
+       .figures = {{"parameters", "-", "in space"}, {"parameters_of_plane", "-", "of an ellipse"}},
+       .estimate = ellipsoid_parameters},
       {.name = "missed_collisions",
        .what = "Which part of first contacts test points miss (miss_rate.hpp)",
        .arguments = {{"points_of_link", ArgumentKind::kWholeNumber, {}, "N"},

@@ -43,24 +43,30 @@ EvaluatedClaim evaluate_one(const Claim& claim, Laboratory& laboratory) {
   return result;
 }
 
-/// Why no claim on times can be decided; empty if they can.
-std::string gate_failure(const std::vector<EvaluatedClaim>& claims) {
-  bool gate_there = false;
+/// What the self-tests of the gate say.
+struct Gate {
+  bool there = false;
+  std::string failure;  ///< why no claim on times can be decided; empty if they can
+};
+
+Gate gate_of(const std::vector<EvaluatedClaim>& claims) {
+  Gate gate;
   for (const EvaluatedClaim& one : claims) {
     if (!one.claim->gate) continue;
-    gate_there = true;
-    if (one.verdict != Verdict::kConfirmed) {
-      return fmt::format("the gate's self-test {} was not confirmed", one.claim->id);
+    gate.there = true;
+    if (one.verdict != Verdict::kConfirmed && gate.failure.empty()) {
+      gate.failure = fmt::format("the gate's self-test {} was not confirmed", one.claim->id);
     }
   }
-  return gate_there ? "" : "the claims file has no self-test of the gate";
+  if (!gate.there) gate.failure = "the claims file has no self-test of the gate";
+  return gate;
 }
 
-void decide_standing(EvaluatedClaim& one, const TimesState& times, const std::string& gate) {
+void decide_standing(EvaluatedClaim& one, const TimesState& times, const Gate& gate) {
   const Claim& claim = *one.claim;
-  if (claim.timing() && !claim.gate && !gate.empty()) {
+  if (claim.timing() && !claim.gate && !gate.failure.empty()) {
     one.verdict = Verdict::kUndecided;
-    if (claim.expected != Verdict::kUndecided) one.reason = gate;
+    if (claim.expected != Verdict::kUndecided) one.reason = gate.failure;
   }
   if (one.verdict == claim.expected) return;
   one.standing = Standing::kBroken;
@@ -70,10 +76,7 @@ void decide_standing(EvaluatedClaim& one, const TimesState& times, const std::st
     if (!excused) return;
   }
   if (!one.reason.empty()) {
-    one.standing = Standing::kNotDecidedHere;
-  } else if (!times.measured) {
-    one.standing = Standing::kNotDecidedHere;
-    one.reason = "no times were measured";
+    if (gate.there) one.standing = Standing::kNotDecidedHere;  // the self-test itself is broken
   } else if (!times.reasons_against.empty()) {
     one.standing = Standing::kNotDecidedHere;
     one.reason =
@@ -100,7 +103,7 @@ std::vector<EvaluatedClaim> evaluate(const std::vector<Claim>& claims, Laborator
     if (starting) starting(claim);
     results.push_back(evaluate_one(claim, laboratory));
   }
-  const std::string gate = gate_failure(results);
+  const Gate gate = gate_of(results);
   for (EvaluatedClaim& one : results) decide_standing(one, times, gate);
   return results;
 }

@@ -18,7 +18,7 @@ enum class Standing {
   kBroken,  ///< another verdict than expected: the claim no longer holds
 
   /// Rests on times, and nothing is decided: the gate's self-test failed, or intervals are too wide on
-  /// a build or machine whose times are only indicative, or nothing was measured.
+  /// a build or machine whose times are only indicative.
   kNotDecidedHere,
 };
 
@@ -37,7 +37,6 @@ struct EvaluatedClaim {
 
 /// What is known of the times that claims rest on.
 struct TimesState {
-  bool measured = true;
   std::vector<std::string> reasons_against;  ///< as of reasons_against_times()
 };
 

@@ -36,7 +36,12 @@ Experiment experiment_of(const Arguments& arguments) {
   Experiment experiment{.scenario = arguments.text("scenario"),
                         .method = arguments.text("method"),
                         .moved = arguments.text("moved")};
-  if (!experiment.moved.empty()) experiment.center = center_of(arguments.text("center"));
+  const std::string& center = arguments.text("center");
+  if (!experiment.moved.empty()) {
+    experiment.center = center_of(center);
+  } else if (!center.empty()) {
+    throw InputError(fmt::format("center: expected none without moved, got {}", center));
+  }
   return experiment;
 }
 

@@ -211,9 +211,21 @@ Findings wall(const Arguments& arguments, Laboratory& laboratory) {
     return static_cast<double>(outside);
   };
   const Eigen::Vector3d axes = ellipsoid.semi_axes();
+  const int samples = laboratory.samples(arguments.whole("samples"));
+  std::mt19937_64 generator(kSeed);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  int inside = 0;
+  for (int sample = 0; sample < samples; ++sample) {
+    const double x = uniform(generator), y = uniform(generator), z = uniform(generator);
+    const Eigen::Vector3d p =
+        ellipsoid.center() +
+        ellipsoid.rotation() * axes.cwiseProduct(Eigen::Vector3d(x, y, z)).eval();
+    inside += ellipsoid.level(p) <= 0;
+  }
   const double sqrt3 = std::numbers::sqrt3;
   return {.figures = {{"thinness", axes.maxCoeff() / axes.minCoeff()},
-                      {"volume", 4.0 / 3 * std::numbers::pi * axes.prod() / (8 * axes.prod())},
+                      {"volume", static_cast<double>(inside) / samples,
+                       wilson_interval(inside, samples)},
                       {"corners_outside", corners_outside(ellipsoid)},
                       {"corners_outside_grown",
                        corners_outside(
@@ -259,9 +271,10 @@ std::vector<Estimator> geometry_estimators() {
        .estimate = enclosing_ellipses},
       {.name = "wall",
        .what = "The first ellipsoid of a scenario against the box of its half lengths",
-       .arguments = {{"scenario", ArgumentKind::kText, {}, "name of a scenario in space"}},
+       .arguments = {{"scenario", ArgumentKind::kText, {}, "name of a scenario in space"},
+                     samples("200000")},
        .figures = {{"thinness", "-", "longest semi-axis over shortest"},
-                   {"volume", "-", "of the ellipsoid over that of the box"},
+                   {"volume", "-", "of the ellipsoid over that of the box, by random points"},
                    {"corners_outside", "-", "corners of the box that the ellipsoid leaves out"},
                    {"corners_outside_grown", "-", "the same with semi-axes times sqrt(3)"}},
        .estimate = wall},

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "harness/claims/scratch_directory.hpp"
 #include "harness/generator/generator.hpp"
 #include "harness/method_spec.hpp"
+#include "harness/scratch_directory.hpp"
 #include "harness/text_file.hpp"
 
 namespace bqsa::harness {

@@ -86,6 +86,28 @@ Findings time_growth(const Arguments& arguments, Laboratory& laboratory) {
       .remarks = {}};
 }
 
+/// Of several sizes; the interval reaches as far down as that of any of them.
+Estimate least_of(const std::vector<Estimate>& ratios) {
+  Estimate least = ratios.front();
+  for (const Estimate& one : ratios) {
+    least.value = std::min(least.value, one.value);
+    least.interval.lower = std::min(least.interval.lower, one.interval.lower);
+    least.interval.upper = std::min(least.interval.upper, one.interval.upper);
+  }
+  return least;
+}
+
+/// As least_of(), the other way round.
+Estimate most_of(const std::vector<Estimate>& ratios) {
+  Estimate most = ratios.front();
+  for (const Estimate& one : ratios) {
+    most.value = std::max(most.value, one.value);
+    most.interval.lower = std::max(most.interval.lower, one.interval.lower);
+    most.interval.upper = std::max(most.interval.upper, one.interval.upper);
+  }
+  return most;
+}
+
 Findings time_ratios(const Arguments& arguments, Laboratory& laboratory) {
   std::string why;
   const Sweep* sweep = measured(arguments, laboratory, {"a", "b"}, why);
@@ -95,11 +117,10 @@ Findings time_ratios(const Arguments& arguments, Laboratory& laboratory) {
   const std::string& a = arguments.text("a");
   const std::string& b = arguments.text("b");
   std::vector<Estimate> ratios;
+  ratios.reserve(sizes.size());
   for (const std::size_t size : sizes) ratios.push_back(time_ratio(*sweep, a, b, size));
-  const auto less = [](const Estimate& x, const Estimate& y) { return x.value < y.value; };
   return {.figures = {figure_of("first", ratios.front()), figure_of("last", ratios.back()),
-                      figure_of("least", *std::min_element(ratios.begin(), ratios.end(), less)),
-                      figure_of("most", *std::max_element(ratios.begin(), ratios.end(), less))},
+                      figure_of("least", least_of(ratios)), figure_of("most", most_of(ratios))},
           .remarks = {fmt::format("at {} = {:.6g} to {:.6g}",
                                   sweep->axis == SweepAxis::kPointPairs ? "NM" : "nk",
                                   sweep->at(sizes.front()), sweep->at(sizes.back()))}};
@@ -179,8 +200,8 @@ std::vector<Estimator> timing_estimators() {
        .arguments = {sweep, a, b, from, to},
        .figures = {{"first", "-", "at the first size"},
                    {"last", "-", "at the last size"},
-                   {"least", "-", "where it is least"},
-                   {"most", "-", "where it is largest"}},
+                   {"least", "-", "of all sizes, with the lowest limits of any"},
+                   {"most", "-", "of all sizes, with the highest limits of any"}},
        .estimate = time_ratios},
       {.name = "ratio_growth",
        .what = "How the time of a over the time of b grows along the axis of a sweep",

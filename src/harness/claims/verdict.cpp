@@ -18,6 +18,10 @@ bool all_hold(std::span<const Outcome> outcomes) {
                      [](Outcome one) { return one == Outcome::kHolds; });
 }
 
+bool any_fails(std::span<const Outcome> outcomes) {
+  return std::find(outcomes.begin(), outcomes.end(), Outcome::kFails) != outcomes.end();
+}
+
 }  // namespace
 
 Outcome outcome_of(const Bound& bound, std::span<const Figure> figures) {
@@ -48,10 +52,9 @@ Outcome outcome_of(const Bound& bound, std::span<const Figure> figures) {
 
 Verdict verdict_of(std::span<const Outcome> as_stated, std::span<const Outcome> corrected) {
   if (all_hold(as_stated)) return Verdict::kConfirmed;
-  const bool failed =
-      std::find(as_stated.begin(), as_stated.end(), Outcome::kFails) != as_stated.end();
-  if (!failed) return Verdict::kUndecided;
-  return !corrected.empty() && all_hold(corrected) ? Verdict::kCorrected : Verdict::kRefuted;
+  if (!any_fails(as_stated)) return Verdict::kUndecided;
+  if (corrected.empty() || any_fails(corrected)) return Verdict::kRefuted;
+  return all_hold(corrected) ? Verdict::kCorrected : Verdict::kUndecided;
 }
 
 const char* name_of(Outcome outcome) {

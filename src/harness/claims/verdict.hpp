@@ -16,8 +16,8 @@ enum class Outcome { kHolds, kFails, kUndecided };
 /// without interval is the interval of its value alone.
 Outcome outcome_of(const Bound& bound, std::span<const Figure> figures);
 
-/// All as stated hold: confirmed. One fails: confirmed with correction if there is a correction all of
-/// whose bounds hold, else refuted. Otherwise not decidable.
+/// All as stated hold: confirmed. One fails: refuted if there is no correction or one of its bounds
+/// fails too, confirmed with correction if all of them hold. Otherwise not decidable.
 /// @param as_stated  not empty
 /// @param corrected  empty if there is no correction
 Verdict verdict_of(std::span<const Outcome> as_stated, std::span<const Outcome> corrected);

@@ -120,6 +120,21 @@ void put_in_order(Sweep& sweep) {
   sweep.sizes = reordered(sweep.sizes);
 }
 
+/// Contestants are compared process by process.
+void expect_equal_processes(const RecordValue& entries, const Sweep& sweep) {
+  std::size_t processes = 0;
+  for (const Series& series : sweep.series) {
+    for (const std::vector<double>& seconds : series.seconds) {
+      if (processes == 0) processes = seconds.size();
+      if (!seconds.empty() && seconds.size() != processes) {
+        entries.refuse(
+            fmt::format("expected as many repetitions of all in {}, {}, got {} of {} at one size",
+                        sweep.name, processes, seconds.size(), series.name));
+      }
+    }
+  }
+}
+
 }  // namespace
 
 Measurements read_measurements(const std::filesystem::path& file) {
@@ -130,7 +145,10 @@ Measurements read_measurements(const std::filesystem::path& file) {
     for (const RecordValue& entry : record["benchmarks"].list()) {
       read_entry(entry, measurements.sweeps);
     }
-    for (Sweep& sweep : measurements.sweeps) put_in_order(sweep);
+    for (Sweep& sweep : measurements.sweeps) {
+      put_in_order(sweep);
+      expect_equal_processes(record["benchmarks"], sweep);
+    }
     return measurements;
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", file.string(), error.what()));

@@ -135,8 +135,11 @@ TEST(ClaimsFile, IsRefusedWithLineKeyExpectedAndFound) {
       {", method: bqsa", "",
        "c.yaml:18: claims[1].estimator[0].method: expected a reactive method, M[:key=value,...], "
        "got nothing"},
+      {"samples: 100", "samples: 0",
+       "c.yaml:19: claims[1].estimator[1].samples: expected a whole number from 1 to 100000000, "
+       "got 0"},
       {"samples: 100", "samples: 1.5",
-       "c.yaml:19: claims[1].estimator[1].samples: expected a whole number from 0 to 1000000000, "
+       "c.yaml:19: claims[1].estimator[1].samples: expected a whole number from 1 to 100000000, "
        "got 1.5"},
       {"expected: confirmed", "expected: true",
        "c.yaml:12: claims[0].expected: expected confirmed, confirmed with correction, refuted or "

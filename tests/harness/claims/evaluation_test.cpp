@@ -113,12 +113,13 @@ TEST(Evaluation, WithoutAGateThatTellsTiesFromDifferencesNoTimeIsJudged) {
     EXPECT_EQ(one.standing, Standing::kNotDecidedHere);
     EXPECT_EQ(one.reason, "the gate's self-test gate was not confirmed");
     EXPECT_TRUE(one.broken) << "on a quiet machine the gate has to work";
-    const TimesState loaded{.measured = true, .reasons_against = {"load"}};
+    const TimesState loaded{.reasons_against = {"load"}};
     EXPECT_FALSE(evaluation_of(kGate + kLinear, sweeps, loaded).broken);
   }
   const Evaluation without = evaluation_of(kLinear, sweeps_of_power(1));
   EXPECT_EQ(without.verdict, Verdict::kUndecided);
   EXPECT_EQ(without.reason, "the claims file has no self-test of the gate");
+  EXPECT_TRUE(without.broken) << "whoever takes the gate away silences nothing";
 }
 
 TEST(Evaluation, WideIntervalsBreakNothingOnALoadedMachine) {
@@ -128,12 +129,18 @@ TEST(Evaluation, WideIntervalsBreakNothingOnALoadedMachine) {
       {{"points", [](double) { return kNano; }}, {"bqsa", [](double) { return kNano; }}}, 300);
   const std::string ratio = claim("{name: time_ratio, sweep: plane_nm, a: points, b: bqsa}",
                                   "{figure: last, is: within, from: 0.99, to: 1.01}");
-  const TimesState loaded{.measured = true, .reasons_against = {"load average 7"}};
+  const TimesState loaded{.reasons_against = {"load average 7"}};
   EXPECT_TRUE(evaluation_of(kGate + ratio, noisy).broken);
   const Evaluation excused = evaluation_of(kGate + ratio, noisy, loaded);
   EXPECT_EQ(excused.standing, Standing::kNotDecidedHere);
   EXPECT_EQ(excused.reason, "times are only indicative: load average 7");
   EXPECT_FALSE(excused.broken);
+  const std::string corrected =
+      claim("{name: time_ratio, sweep: plane_nm, a: points, b: bqsa}",
+            "{figure: last, is: '>', value: 1.0e6}",
+            "corrected: {text: t, bounds: [{figure: last, is: within, from: 0.99, to: 1.01}]}\n"
+            "  expected: confirmed with correction");
+  EXPECT_EQ(evaluation_of(kGate + corrected, noisy, loaded).standing, Standing::kNotDecidedHere);
   // A refutation is one, load or not: ratios come from interleaved blocks.
   EXPECT_TRUE(evaluation_of(kGate + kLinear, sweeps_of_power(1.5), loaded).broken);
 }

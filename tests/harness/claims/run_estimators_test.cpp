@@ -82,6 +82,25 @@ TEST_F(RunEstimators, SeeThatASelfMotionOfTheWholeArmTurnsOuterLinks) {
   EXPECT_GT(turned("bqsa:release=first"), 0.01);
 }
 
+/// What a method says of itself decides nothing alone: the judge is asked, and the pairs that its steps
+/// would hit are found from its postures.
+TEST_F(RunEstimators, TellACollidingRunAndPairsNotReported) {
+  for (const char* estimator :
+       {"cleared_pairs", "outer_links", "errors_while_avoiding", "velocity_jumps"}) {
+    SCOPED_TRACE(estimator);
+    const auto with = [&](const char* method) {
+      return estimate(estimator,
+                      {{"scenario", "planar_7r"}, {"method", method}, {"pairs", "7 object"}});
+    };
+    EXPECT_EQ(value(with("bqsa"), "success"), 1);
+    EXPECT_EQ(value(with("none"), "success"), 0);
+  }
+  const Findings silent = estimate(
+      "cleared_pairs", {{"scenario", "planar_7r"}, {"method", "none"}, {"pairs", "7 object"}});
+  EXPECT_EQ(value(silent, "unreported"), 3);  // of (5, obstacle), (6, obstacle), (7, object)
+  EXPECT_EQ(value(silent, "others_hit_without_avoidance"), 2);
+}
+
 TEST_F(RunEstimators, CallAMotionSmoothThatMeetsNothing) {
   const Findings free = estimate("velocity_jumps", {{"scenario", "planar_7r"}, {"method", "none"}});
   EXPECT_NEAR(value(free, "jump_exponent"), 1, 0.05);
@@ -122,6 +141,8 @@ TEST_F(RunEstimators, RefuseWhatTheyCannotRun) {
                      {"moved", "obstacle"},
                      {"center", "0 0"}}),
             "center: expected three numbers, X Y Z [mm], got 0 0");
+  EXPECT_EQ(message({{"scenario", "planar_7r"}, {"method", "bqsa"}, {"center", "0 0 0"}}),
+            "center: expected none without moved, got 0 0 0");
   EXPECT_NE(message({{"scenario", "planar_8r"}, {"method", "bqsa"}}), "no error");
 }
 

@@ -66,6 +66,23 @@ TEST(TimeGrowth, ChangeIsThePartOfTheTimeThatTheRangeMakes) {
   EXPECT_GE(change.interval->upper, change.value);
 }
 
+/// A noisy size among steady ones: whatever is least, its lower limit counts.
+TEST(TimeRatio, LeastAndMostHaveTheLimitsOfAllSizes) {
+  Sweep sweep = synthetic_sweep("plane_nm", SweepAxis::kPointPairs,
+                                {{"a", [](double nm) { return kNano * (nm < 5 ? 2 : 2.1); }},
+                                 {"b", [](double) { return kNano; }}});
+  sweep.series[0].seconds[3] = {1 * kNano, 1 * kNano, 4.41 * kNano, 4.41 * kNano};
+  const Findings ratios =
+      estimate("time_ratio", {sweep}, {{"sweep", "plane_nm"}, {"a", "a"}, {"b", "b"}});
+  const Figure& least = figure_named(ratios, "least");
+  EXPECT_NEAR(least.value, 2, 0.01);
+  EXPECT_LT(least.interval->lower, 1);
+  EXPECT_NEAR(least.interval->upper, 2, 0.01);
+  const Figure& most = figure_named(ratios, "most");
+  EXPECT_NEAR(most.value, 2.1, 0.01);
+  EXPECT_GT(most.interval->upper, 4);
+}
+
 TEST(TimeRatio, LooksAtTheRangeAlone) {
   const Findings all =
       estimate("time_ratio", {plane()}, {{"sweep", "plane_nm"}, {"a", "points"}, {"b", "bqsa"}});

@@ -108,22 +108,26 @@ TEST(Verdict, FollowsTheRuleForAllListsOfUpToThreeOutcomes) {
       held += one == Outcome::kHolds;
     }
     for (const auto& corrected : lists_of_outcomes(3)) {
-      int corrected_held = 0;
+      int corrected_held = 0, corrected_failed = 0;
       for (const Outcome one : corrected) corrected_held += one == Outcome::kHolds;
+      for (const Outcome one : corrected) corrected_failed += one == Outcome::kFails;
       const bool saved = !corrected.empty() && corrected_held == static_cast<int>(corrected.size());
+      const bool lost = corrected.empty() || corrected_failed > 0;
       const Verdict expected = held == static_cast<int>(as_stated.size()) ? Verdict::kConfirmed
                                : failed == 0                              ? Verdict::kUndecided
                                : saved                                    ? Verdict::kCorrected
-                                                                          : Verdict::kRefuted;
+                               : lost                                     ? Verdict::kRefuted
+                                                                          : Verdict::kUndecided;
       EXPECT_EQ(verdict_of(as_stated, corrected), expected);
       ++counts[static_cast<int>(expected)];
     }
   }
-  // 39 lists as stated: 3 hold in full, 25 have a failure; of 40 corrections 3 hold in full.
+  // 39 lists as stated: 3 hold in full, 25 have a failure; of 40 corrections 3 hold in full, 1 is
+  // empty, 25 have a failure, 11 are undecided.
   EXPECT_EQ(counts[static_cast<int>(Verdict::kConfirmed)], 3 * 40);
   EXPECT_EQ(counts[static_cast<int>(Verdict::kCorrected)], 25 * 3);
-  EXPECT_EQ(counts[static_cast<int>(Verdict::kRefuted)], 25 * 37);
-  EXPECT_EQ(counts[static_cast<int>(Verdict::kUndecided)], 11 * 40);
+  EXPECT_EQ(counts[static_cast<int>(Verdict::kRefuted)], 25 * 26);
+  EXPECT_EQ(counts[static_cast<int>(Verdict::kUndecided)], 11 * 40 + 25 * 11);
 }
 
 }  // namespace

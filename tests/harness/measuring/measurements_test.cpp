@@ -155,6 +155,11 @@ TEST_F(MeasurementsFile, SaysWhereItIsNotWhatItShouldBe) {
               HasSubstr("benchmarks[0].k: expected a whole number"));
   EXPECT_THAT(refusal(with("\"cpu_time\":", "\"cpu_time\":-")),
               HasSubstr("benchmarks[0].cpu_time: expected a positive number of ns"));
+  Measurements cut = example();
+  cut.sweeps[0].series[1].seconds[0].pop_back();
+  EXPECT_THAT(refusal(measurements_json(cut)),
+              HasSubstr("benchmarks: expected as many repetitions of all in plane_nm, 2, got 1 of "
+                        "test_points at one size"));
   EXPECT_THAT(refusal(with("plane_nm/bqsa/NM:6/nk:27", "plane_nm")),
               HasSubstr("benchmarks[0].name: expected SWEEP/SERIES/..."));
 }

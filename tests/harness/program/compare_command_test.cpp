@@ -260,5 +260,40 @@ TEST_F(CompareBenchmarks, FindsTheOneThatGotSlower) {
   EXPECT_EQ(run_bqsa_bench({"compare", file("old", 1.3), file("new", 1)}).status, 0);
 }
 
+/// Measurements as of a quick `measure`: a few processes, whose times waver by some per cent. One
+/// contestant made half as slow again has to be found among a thousand times; the file itself is a tie.
+TEST(CompareMeasurements, FindTheContestantThatTakesHalfAsLongAgain) {
+  const TemporaryDirectory directory;
+  const auto file = [&](const char* name, double factor) {
+    Json json = {{"context", {{"num_cpus", 2}, {"library_build_type", "release"}}}};
+    for (int contestant = 0; contestant < 80; ++contestant) {
+      for (int size = 0; size < 13; ++size) {
+        for (int process = 0; process < 4; ++process) {
+          const int drawn = (7 * contestant + 5 * size + 3 * process) % 11;
+          const double wavering = 1 + 0.004 * drawn;
+          json["benchmarks"].push_back(
+              {{"name", fmt::format("sweep/{}/nk:{}", contestant, 1 << size)},
+               {"run_type", "iteration"},
+               {"repetition_index", process},
+               {"cpu_time", (contestant == 40 ? factor : 1) * (1 << size) * wavering},
+               {"time_unit", "ns"}});
+        }
+      }
+    }
+    const std::filesystem::path path = directory.path() / name;
+    write_file(path, json.dump());
+    return path.string();
+  };
+  const std::string old = file("old", 1);
+  const ProgramResult same = run_bqsa_bench({"compare", old, old});
+  EXPECT_EQ(same.status, 0);
+  EXPECT_THAT(same.out, HasSubstr("1040 compared: 1040 ties, 0 better, 0 worse\n"));
+  const ProgramResult slower = run_bqsa_bench({"compare", old, file("new", 1.5)});
+  EXPECT_EQ(slower.status, 1);
+  EXPECT_THAT(slower.out, HasSubstr("sweep/40/"));
+  EXPECT_THAT(slower.out, Not(HasSubstr("sweep/41/")));
+  EXPECT_EQ(run_bqsa_bench({"compare", file("new", 1.5), old}).status, 0);
+}
+
 }  // namespace
 }  // namespace bqsa::harness
