@@ -18,9 +18,8 @@
 namespace bqsa::harness {
 namespace {
 
-constexpr std::string_view kGate = "gate";
 constexpr std::array<std::string_view, 7> kSweepNames{
-    "plane_nm", "plane_nk", "space_nm", "space_nk", "step_nk", "space_step_nk", kGate};
+    "plane_nm", "plane_nk", "space_nm", "space_nk", "step_nk", "space_step_nk", kGateSweep};
 
 constexpr std::array kSteps{1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10'000};
 constexpr int kPairs = 27;        ///< nk where NM varies (paper, Fig. 5)
@@ -219,7 +218,7 @@ Sweep run_sweep(std::string_view name, const SweepSettings& settings,
         fmt::format("sweep: expected one of {}, got '{}'", fmt::join(kSweepNames, ", "), name));
   }
   const int dimension = name.starts_with("space") ? 3 : 2;
-  if (name == kGate) {
+  if (name == kGateSweep) {
     sweep_gate(settings, progress, sweep);
   } else if (is_of_steps(name)) {
     sweep_steps(dimension, settings, progress, sweep);

@@ -21,6 +21,9 @@ namespace bqsa::harness {
 ///   passes (`half_more`): what a gate on ratios has to call a tie and a difference.
 std::span<const std::string_view> sweep_names();
 
+/// The sweep that says nothing of detectors or methods.
+inline constexpr std::string_view kGateSweep = "gate";
+
 /// Whether its times are those of control steps, not of passes of a detector.
 bool is_of_steps(std::string_view sweep_name);
 
@@ -32,7 +35,7 @@ struct SweepSettings {
 
 /// In a process of some 20 s for all sweeps together.
 SweepSettings quick_sweeps();
-/// The paper's 100 passes whatever they take, more and longer blocks; a process of a minute or two.
+/// More and longer blocks; a process of a minute or two.
 SweepSettings full_sweeps();
 
 /// Told what is being measured, as `plane_nm NM = 100`.

@@ -68,6 +68,7 @@ void require_paper_series(const Sweep& sweep) {
 void write_measured_figures(const Measurements& measurements, FigureWriter& writer) {
   const TimesOrigin origin = times_origin(measurements.origin);
   for (const Sweep& sweep : measurements.sweeps) {
+    if (sweep.name == kGateSweep) continue;
     if (is_of_steps(sweep.name)) {
       writer.write(step_times(sweep, origin));
       continue;
