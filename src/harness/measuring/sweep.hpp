@@ -36,8 +36,7 @@ struct Series {
   /// The paper's protocol: mean of 100 single passes by the wall clock, in the first process, [size];
   /// empty if it was not measured, not a number at sizes left out [s].
   std::vector<double> paper_seconds;
-  std::vector<int> paper_passes =
-      {};  ///< how many they were: fewer where 100 took too long, [size]
+  std::vector<int> paper_passes = {};  ///< how many they were, [size]
 
   bool measured(std::size_t size) const { return !seconds[size].empty(); }
 

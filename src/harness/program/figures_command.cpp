@@ -10,6 +10,7 @@
 #include "harness/figures/posture_figures.hpp"
 #include "harness/figures/sweep_figures.hpp"
 #include "harness/figures/tracking_figures.hpp"
+#include "harness/figures/trajectory_figures.hpp"
 #include "harness/measuring/measurements.hpp"
 #include "harness/measuring/run_sweep.hpp"
 #include "harness/program/commands.hpp"
@@ -73,14 +74,16 @@ void write_measured_figures(const Measurements& measurements, FigureWriter& writ
       writer.write(step_times(sweep, origin));
       continue;
     }
-    if (sweep.sizes.front().dimension == 2) {
-      require_paper_series(sweep);
-      writer.write(paper_times(sweep, origin));
-      writer.write(estimated_times(sweep, origin));
+    const bool in_plane = sweep.sizes.front().dimension == 2;
+    if (in_plane) require_paper_series(sweep);
+    const MissRates misses = miss_rates(sweep, kMissRateSeed);
+    if (in_plane) {
+      writer.write(paper_times(sweep, misses, origin));
+      writer.write(estimated_times(sweep, misses, origin));
     }
-    writer.write(fair_times(sweep, origin));
+    writer.write(fair_times(sweep, misses, origin));
     if (sweep.axis != SweepAxis::kPointPairs) continue;
-    writer.write(times_against_miss_rate(sweep, miss_rates(sweep, kMissRateSeed), origin));
+    writer.write(times_against_miss_rate(sweep, misses, origin));
   }
 }
 
