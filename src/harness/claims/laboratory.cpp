@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "harness/claims/scratch_directory.hpp"
+#include "harness/scratch_directory.hpp"
 #include "harness/generator/generator.hpp"
 #include "harness/method_spec.hpp"
 #include "harness/text_file.hpp"

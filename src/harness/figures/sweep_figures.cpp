@@ -121,9 +121,6 @@ plot name . ".csv" using "{axis}":"{points} [us]" with linespoints {points_style
 
 namespace {
 
-/// Exponents are those of the larger half of the sizes, in which what any pass costs does not matter.
-std::size_t exponents_from(const Sweep& sweep) { return (sweep.sizes.size() - 1) / 2; }
-
 /// The fitted lines of both series as gnuplot functions, and the table of what was fitted.
 std::string fit_functions(const Sweep& sweep, CsvTable& table) {
   std::string text;

@@ -109,7 +109,7 @@ plot {close}, \
 
 Figure error_figure(Figure figure, const RunPair& runs, int axes) {
   add_close_spans(runs, figure);
-  const PanelGrid grid{.rows = axes, .columns = 2, .left = 0.1};
+  const PanelGrid grid{.rows = axes, .columns = 2, .left = 0.115};
   figure.drawing = fmt::format("set multiplot\nset xrange [0:{}]\n", runs[0]->problem().duration());
   std::array<std::vector<TickErrors>, 2> ticks;
   for (std::size_t r = 0; r < 2; ++r) {

@@ -6,39 +6,15 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 #include <system_error>
 
 #include "harness/measuring/measurements.hpp"
+#include "harness/scratch_directory.hpp"
 
 namespace bqsa::harness {
 namespace {
-
-/// A directory of our own, removed with all in it.
-class ScratchDirectory {
- public:
-  ScratchDirectory() {
-    std::string name = (std::filesystem::temp_directory_path() / "bqsa-measure-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) {
-      throw std::runtime_error(
-          fmt::format("{}: cannot be made: {}", name, std::generic_category().message(errno)));
-    }
-    path_ = name;
-  }
-  ~ScratchDirectory() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchDirectory(const ScratchDirectory&) = delete;
-  ScratchDirectory& operator=(const ScratchDirectory&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Waits for the end of the program and says what was wrong with it; empty if nothing.
 std::string fault_of(std::vector<std::string> words) {

@@ -74,6 +74,10 @@ Estimate time_ratio(const Sweep& sweep, std::string_view a, std::string_view b, 
 /// The slope of log(time) against log(axis) from the size `from` on, at least three sizes measured.
 Estimate time_exponent(const Sweep& sweep, std::string_view name, std::size_t from = 0);
 
+/// The size from which on exponents are shown: the larger half, in which what any pass costs does not
+/// matter.
+std::size_t exponents_from(const Sweep& sweep);
+
 /// time = intercept + slope x axis, weighted by 1/time², so that small sizes count as much as large. At
 /// least three sizes measured.
 struct LinearTime {

@@ -15,7 +15,7 @@ namespace bqsa::harness {
 class ScratchDirectory {
  public:
   ScratchDirectory() {
-    std::string name = (std::filesystem::temp_directory_path() / "bqsa-claims-XXXXXX").string();
+    std::string name = (std::filesystem::temp_directory_path() / "bqsa-XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr) {
       throw InputError(name + ": expected a directory that can be made, got one that cannot");
     }
