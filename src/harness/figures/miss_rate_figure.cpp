@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "harness/figures/panels.hpp"
@@ -10,6 +11,21 @@
 #include "harness/measuring/detector.hpp"
 
 namespace bqsa::harness {
+
+namespace {
+
+std::string percentage(double share) { return fmt::format("{:.2g}", 100 * share); }
+
+}  // namespace
+
+const MissRate* miss_of(const std::vector<MissRate>& misses, std::string_view detector,
+                        const WorkloadSize& size) {
+  const auto found = std::find_if(misses.begin(), misses.end(), [&](const MissRate& miss) {
+    return miss.detector == detector && miss.size.test_points.link == size.test_points.link &&
+           miss.size.test_points.obstacle == size.test_points.obstacle;
+  });
+  return found == misses.end() ? nullptr : &*found;
+}
 
 MissRates miss_rates(const Sweep& sweep, std::uint64_t seed) {
   const int dimension = sweep.sizes.front().dimension;
@@ -22,11 +38,43 @@ MissRates miss_rates(const Sweep& sweep, std::uint64_t seed) {
       const Detector& detector = detector_named(series.name);
       const bool samples = detector.accuracy == Accuracy::kSampled;
       for (std::size_t size = 0; size < (samples ? sweep.sizes.size() : 1); ++size) {
+        if (miss_of(found, series.name, sweep.sizes[size]) != nullptr) continue;
         found.push_back(pairs.ask(detector, sweep.sizes[size].test_points));
       }
     }
   }
   return rates;
+}
+
+std::array<double, 2> missed_by_test_points(const MissRates& misses, const WorkloadSize& size) {
+  const auto rate = [&size](const std::vector<MissRate>& asked) {
+    const MissRate* miss = miss_of(asked, "test_points", size);
+    return miss == nullptr ? std::nan("") : miss->miss_rate();
+  };
+  return {rate(misses.anywhere), rate(misses.first_contact)};
+}
+
+std::string miss_axis(const Sweep& sweep, const MissRates& misses) {
+  std::string marks;
+  for (std::size_t size = 0; size < sweep.sizes.size(); ++size) {
+    const double missed = missed_by_test_points(misses, sweep.sizes[size])[0];
+    if (std::isnan(missed)) continue;
+    marks +=
+        fmt::format("{}\"{}\" {}", marks.empty() ? "" : ", ", percentage(missed), sweep.at(size));
+  }
+  if (marks.empty()) return "";
+  return fmt::format(
+      "set logscale x2\nset x2range [{}:{}]\nset x2tics ({}) font \",10\" offset 0,-0.4\n"
+      "set x2label \"hits that test points miss [%], links of any place and direction\" font "
+      "\",11\" offset 0,0.1\n",
+      sweep.at(0), sweep.at(sweep.sizes.size() - 1), marks);
+}
+
+std::string miss_text(const MissRates& misses, const WorkloadSize& size) {
+  const auto [anywhere, first_contact] = missed_by_test_points(misses, size);
+  if (std::isnan(anywhere) || std::isnan(first_contact)) return "";
+  return fmt::format("test points miss {} % of hits, {} % at first contact", percentage(anywhere),
+                     percentage(first_contact));
 }
 
 namespace {
@@ -71,7 +119,8 @@ std::string miss_panel(const Sweep& sweep, const std::string& part, bool with_ke
     elements +=
         fmt::format("{}name . \"_{}.csv\" using \"shown at\":{} with linespoints {} {}",
                     elements.empty() ? "" : ", \\\n  ", part, time, detector_style(name), title);
-    if (!samples) continue;
+    // The vectorised loop's are those of the two others beside it.
+    if (!samples || name == "test_points_vectorized") continue;
     elements += fmt::format(
         ", \\\n  \"\" using \"shown at\":{}:(column(\"NM\") < 10 ? \"\" : sprintf(\"%g\", "
         "column(\"NM\"))) with labels font "
@@ -103,8 +152,9 @@ Figure times_against_miss_rate(const Sweep& sweep, const MissRates& misses,
       "\"10^{{-2}}\" 1e-2, \"10^{{-1}}\" 1e-1, \"1\" 1)\n"
       "set arrow from {2:g},graph 0 to {2:g},graph 1 nohead linecolor \"#707070\" dashtype (2,4)\n"
       "set xlabel \"share of hits that are missed\"\n"
-      "set key at screen 0.72,0.9 left top reverse Left font \",12\" samplen 2.5 spacing 1.3\n",
-      kNoMisses / 6, kNoMisses, kNoMisses * 4);
+      "set key at screen 0.72,0.9 left top reverse Left font \",12\" samplen 2.5 spacing 1.3\n"
+      "set key title \"numbers at curves: NM\" left\n",
+      kNoMisses / 12, kNoMisses, kNoMisses * 4);
   const PanelGrid grid{.rows = 1,
                        .columns = 2,
                        .left = 0.07,

@@ -40,6 +40,7 @@ constexpr std::array kDetectorStyles{
     DetectorStyle{"bqsa_space", kBlack, kDashDot, 12},
     DetectorStyle{"test_points", kPurple, kSolid, 9},
     DetectorStyle{"test_points_vectorized", kPurple, kDashed, 8},
+    DetectorStyle{"test_points_inside", kPurple, kDotted, 11},
     DetectorStyle{"exact_distance", kRed, kSolid, 13},
     DetectorStyle{"fcl_collide_libccd", kOrange, kSolid, 5},
     DetectorStyle{"fcl_collide_indep", kOrange, kDashed, 4},

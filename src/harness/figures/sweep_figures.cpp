@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string_view>
 
 #include "harness/figures/series_style.hpp"
+#include "harness/figures/sweep_curves.hpp"
 #include "harness/figures/times_figure.hpp"
 #include "harness/measuring/detector.hpp"
 #include "harness/measuring/run_sweep.hpp"
@@ -17,29 +17,10 @@
 namespace bqsa::harness {
 namespace {
 
-constexpr double kMicrosecond = 1e-6;
-
 constexpr const char* kTestPoints = "test_points";
 constexpr const char* kPaperForm = "bqsa_paper";
 /// NM from which on the paper's 25 multiplications a pair are fewer than its 2 NM (section 3.4).
 constexpr double kPredictedCrossover = 12.5;
-
-const char* axis_name(const Sweep& sweep) {
-  return sweep.axis == SweepAxis::kPointPairs ? "NM" : "nk";
-}
-
-const char* axis_label(const Sweep& sweep) {
-  return sweep.axis == SweepAxis::kPointPairs
-             ? "NM, test points of a link times those of an obstacle"
-             : "nk, links times obstacles";
-}
-
-/// What is the same at all sizes, as `nk = 27`.
-std::string fixed_text(const Sweep& sweep) {
-  return sweep.axis == SweepAxis::kPointPairs
-             ? fmt::format("nk = {}", sweep.sizes.front().pairs())
-             : fmt::format("NM = {}", sweep.sizes.front().point_pairs());
-}
 
 /// `fig05` along NM, `fig06` along nk.
 std::string figure_stem(const Sweep& sweep) {
@@ -50,71 +31,21 @@ std::string paper_number(const Sweep& sweep) {
   return sweep.axis == SweepAxis::kPointPairs ? "Fig. 5" : "Fig. 6";
 }
 
-std::string time_column(std::string_view series) { return fmt::format("{} [us]", series); }
-
-/// Times of series over a sweep, with their intervals.
-CsvTable times_table(const Sweep& sweep, const std::vector<std::string>& names) {
-  std::vector<std::string> columns = {axis_name(sweep)};
-  for (const std::string& name : names) {
-    columns.push_back(time_column(name));
-    columns.push_back(fmt::format("{} lower [us]", name));
-    columns.push_back(fmt::format("{} upper [us]", name));
-  }
-  CsvTable table(columns);
-  for (std::size_t size = 0; size < sweep.sizes.size(); ++size) {
-    std::vector<CsvTable::Cell> cells = {sweep.at(size)};
-    for (const std::string& name : names) {
-      const double none = std::numeric_limits<double>::quiet_NaN();
-      const bool measured = sweep.find(name)->measured(size);
-      const Estimate time =
-          measured ? time_of(sweep, name, size) : Estimate{none, Interval{none, none}};
-      const bool bounded = std::isfinite(time.interval.upper);
-      cells.emplace_back(time.value / kMicrosecond);
-      cells.emplace_back(bounded ? time.interval.lower / kMicrosecond : none);
-      cells.emplace_back(bounded ? time.interval.upper / kMicrosecond : none);
-    }
-    table.add_row(cells);
-  }
-  return table;
-}
-
-/// Whether there are at least two processes at some size.
-bool has_intervals(const Sweep& sweep, const std::string& name) {
-  const auto& seconds = sweep.find(name)->seconds;
-  return std::any_of(seconds.begin(), seconds.end(),
-                     [](const std::vector<double>& processes) { return processes.size() > 1; });
-}
-
-/// The bars of its intervals, if it has any, and a curve, as plot elements.
-std::string curve_with_bars(const Sweep& sweep, const std::string& name, const std::string& style,
-                            const std::string& label) {
-  std::string curve =
-      fmt::format("name . \".csv\" using \"{}\":\"{} [us]\" with linespoints {} title \"{}\"",
-                  axis_name(sweep), name, style, label);
-  if (!has_intervals(sweep, name)) return curve;
-  const std::string colour = style.substr(0, style.find(" linewidth"));
-  return fmt::format(
-      "name . \".csv\" using \"{0}\":\"{1} [us]\":\"{1} lower [us]\":\"{1} upper [us]\" with "
-      "yerrorbars "
-      "{2} linewidth 1.2 dashtype solid pointtype 0 notitle, \\\n  {3}",
-      axis_name(sweep), name, colour, curve);
-}
-
 /// Log-log axes, a key on the right in the order of the curves, all series.
-Figure all_series(Figure figure, const Sweep& sweep) {
+Figure all_series(Figure figure, const Sweep& sweep, const MissRates& misses) {
   const bool of_detectors = !is_of_steps(sweep.name);
   const char* y_label =
       of_detectors ? "time of a pass over all nk pairs [µs]" : "time of a control step [µs]";
   const std::string title = fmt::format("{}{}", in_space(sweep) ? "in space" : "in the plane",
-                                        of_detectors ? ", " + fixed_text(sweep) : "");
+                                        of_detectors ? ", " + fixed_text(sweep, misses) : "");
   const std::vector<std::string> names = by_last_time(sweep);
   figure.width = 1300;
-  figure.data.emplace_back("", times_table(sweep, names));
-  figure.drawing += log_axes();
+  figure.data.emplace_back("", times_table(sweep, names, misses));
+  figure.drawing += log_axes() + upper_axis(sweep, misses);
   figure.drawing += fmt::format(
       "set xlabel \"{}\"\nset ylabel \"{}\"\nset key outside right center reverse Left font "
       "\",12\" "
-      "samplen 4 spacing 1.25\nset tmargin 3.6; set bmargin 4.5; set pointsize 0.9\nset title "
+      "samplen 4 spacing 1.25\nset tmargin 5.2; set bmargin 4.5; set pointsize 0.9\nset title "
       "\"{}\"\nset xrange [{}:{}]\n",
       axis_label(sweep), y_label, title, sweep.at(0), sweep.at(sweep.sizes.size() - 1));
   std::string elements;
@@ -146,7 +77,7 @@ std::string passes_text(const Series& series) {
 
 }  // namespace
 
-Figure paper_times(const Sweep& sweep, const TimesOrigin& origin) {
+Figure paper_times(const Sweep& sweep, const MissRates& misses, const TimesOrigin& origin) {
   const std::string axis = axis_name(sweep);
   Figure figure = new_times_figure(
       fmt::format("{}_time_against_{}", figure_stem(sweep), axis == "NM" ? "nm" : "nk"),
@@ -157,14 +88,15 @@ Figure paper_times(const Sweep& sweep, const TimesOrigin& origin) {
           axis, fixed_text(sweep)),
       origin);
   CsvTable table({axis, time_column(kTestPoints), time_column(kPaperForm), "test_points passes",
-                  "bqsa_paper passes"});
+                  "bqsa_paper passes", kMissColumns[0], kMissColumns[1]});
   const Series& points = *sweep.find(kTestPoints);
   const Series& quadratic = *sweep.find(kPaperForm);
   const std::size_t sizes = std::min(points.paper_seconds.size(), quadratic.paper_seconds.size());
   for (std::size_t size = 0; size < sizes; ++size) {
+    const auto [anywhere, first_contact] = missed_by_test_points(misses, sweep.sizes[size]);
     table.add_row({sweep.at(size), points.paper_seconds[size] / kMicrosecond,
                    quadratic.paper_seconds[size] / kMicrosecond, points.paper_passes[size],
-                   quadratic.paper_passes[size]});
+                   quadratic.paper_passes[size], anywhere, first_contact});
   }
   figure.data.emplace_back("", table);
   figure.drawing +=
@@ -177,7 +109,7 @@ set tmargin 3.6; set bmargin 4.5
 plot name . ".csv" using "{axis}":"{points} [us]" with linespoints {points_style} title "{points_label}", \
   "" using "{axis}":"{quadratic} [us]" with linespoints {quadratic_style} title "{quadratic_label}"
 )gp",
-                  fmt::arg("title", fixed_text(sweep) + "; mean of " + passes_text(points)),
+                  fmt::arg("title", fixed_text(sweep, misses) + "; mean of " + passes_text(points)),
                   fmt::arg("axis", axis), fmt::arg("axis_label", axis_label(sweep)),
                   fmt::arg("points", kTestPoints), fmt::arg("quadratic", kPaperForm),
                   fmt::arg("points_style", detector_style(kTestPoints)),
@@ -188,9 +120,6 @@ plot name . ".csv" using "{axis}":"{points} [us]" with linespoints {points_style
 }
 
 namespace {
-
-/// Exponents are those of the larger half of the sizes, in which what any pass costs does not matter.
-std::size_t exponents_from(const Sweep& sweep) { return (sweep.sizes.size() - 1) / 2; }
 
 /// The fitted lines of both series as gnuplot functions, and the table of what was fitted.
 std::string fit_functions(const Sweep& sweep, CsvTable& table) {
@@ -234,7 +163,7 @@ std::string crossover_marks(const Sweep& sweep) {
 
 }  // namespace
 
-Figure estimated_times(const Sweep& sweep, const TimesOrigin& origin) {
+Figure estimated_times(const Sweep& sweep, const MissRates& misses, const TimesOrigin& origin) {
   Figure figure = new_times_figure(
       fmt::format("{}_estimated", figure_stem(sweep)), paper_number(sweep),
       fmt::format(
@@ -247,15 +176,15 @@ Figure estimated_times(const Sweep& sweep, const TimesOrigin& origin) {
                  "slope [us]", "slope lower [us]", "slope upper [us]", "r squared", "exponent from",
                  "exponent", "exponent lower", "exponent upper"});
   const std::string functions = fit_functions(sweep, fits);
-  figure.data.emplace_back("", times_table(sweep, {kTestPoints, kPaperForm}));
+  figure.data.emplace_back("", times_table(sweep, {kTestPoints, kPaperForm}, misses));
   figure.data.emplace_back("fits", fits);
-  figure.drawing += log_axes() + functions + crossover_marks(sweep);
+  figure.drawing += log_axes() + functions + crossover_marks(sweep) + upper_axis(sweep, misses);
   figure.drawing += fmt::format(
       "set title \"{}\"\nset xlabel \"{}\"\nset ylabel \"time of a pass over all nk pairs [µs]\"\n"
-      "set key bottom right reverse Left samplen 4 font \",13\"\nset tmargin 3.6; set bmargin "
+      "set key bottom right reverse Left samplen 4 font \",13\"\nset tmargin 5.2; set bmargin "
       "4.5\nset xrange "
       "[{}:{}]\n",
-      fmt::format("{}; exponents from {} = {} on", fixed_text(sweep), axis_name(sweep),
+      fmt::format("{}; exponents from {} = {} on", fixed_text(sweep, misses), axis_name(sweep),
                   sweep.at(exponents_from(sweep))),
       axis_label(sweep), sweep.at(0), sweep.at(sweep.sizes.size() - 1));
   std::string elements;
@@ -274,14 +203,14 @@ Figure estimated_times(const Sweep& sweep, const TimesOrigin& origin) {
   return figure;
 }
 
-Figure fair_times(const Sweep& sweep, const TimesOrigin& origin) {
+Figure fair_times(const Sweep& sweep, const MissRates& misses, const TimesOrigin& origin) {
   return all_series(
       new_times_figure(fmt::format("{}_{}", figure_stem(sweep), in_space(sweep) ? "space" : "fair"),
                        paper_number(sweep),
                        fmt::format("Time of all detectors against {}, in {}, {}", axis_name(sweep),
                                    in_space(sweep) ? "space" : "the plane", fixed_text(sweep)),
                        origin),
-      sweep);
+      sweep, misses);
 }
 
 Figure step_times(const Sweep& sweep, const TimesOrigin& origin) {
@@ -291,7 +220,7 @@ Figure step_times(const Sweep& sweep, const TimesOrigin& origin) {
                        fmt::format("Time of a whole control step of every method against nk, {}",
                                    space ? "in space" : "in the plane"),
                        origin),
-      sweep);
+      sweep, {});
 }
 
 }  // namespace bqsa::harness

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "harness/figures/panels.hpp"
 
@@ -40,88 +39,6 @@ std::string close_element(const JudgedRun& run) {
       "name . \"_close_{}.csv\" using \"from [s]\":(bottom):\"from [s]\":\"to "
       "[s]\":(bottom):(top) with boxxyerror fillstyle solid noborder linecolor \"#dcdcdc\" notitle",
       run.method);
-}
-
-// --- desired and actual path
-
-CsvTable path_table(const std::vector<TipSample>& samples) {
-  CsvTable table({"t [s]", "at tick", "x desired [m]", "y desired [m]", "z desired [m]", "x [m]",
-                  "y [m]", "z [m]"});
-  for (const TipSample& sample : samples) {
-    table.add_row({sample.t, sample.at_tick ? 1 : 0, sample.desired.x(), sample.desired.y(),
-                   sample.desired.z(), sample.actual.x(), sample.actual.y(), sample.actual.z()});
-  }
-  return table;
-}
-
-constexpr double kEnlarged = 0.15;  // to which a deviation may be, of the size of the path
-
-struct PathBounds {
-  Vector3d lower;
-  Vector3d upper;
-
-  double size() const { return (upper - lower).maxCoeff(); }
-  std::string range(Eigen::Index axis) const {
-    const double edge = kEnlarged * size();
-    return fmt::format("[{:.3f}:{:.3f}]", lower(axis) - edge, upper(axis) + edge);
-  }
-};
-
-PathBounds path_bounds(const std::vector<TipSample>& samples) {
-  PathBounds bounds{samples.front().desired, samples.front().desired};
-  for (const TipSample& sample : samples) {
-    bounds.lower = bounds.lower.cwiseMin(sample.desired);
-    bounds.upper = bounds.upper.cwiseMax(sample.desired);
-  }
-  return bounds;
-}
-
-/// The power of ten that makes a deviation as large as can be shown beside a path.
-double enlargement(const std::vector<TipSample>& samples) {
-  double deviation = 0;
-  for (const TipSample& sample : samples) {
-    deviation = std::max(deviation, (sample.actual - sample.desired).norm());
-  }
-  if (deviation == 0) return 1;
-  return std::pow(10, std::floor(std::log10(kEnlarged * path_bounds(samples).size() / deviation)));
-}
-
-constexpr const char* kPathPanel = R"gp(
-enlarged = {enlarged:g}
-set title sprintf("{title}, deviation enlarged %g times", enlarged)
-set xrange {x_range}; set yrange {y_range}
-plot name . "_{method}.csv" using "{u} desired [m]":"{v} desired [m]" with lines linewidth 9 linecolor "#cfcfcf" notitle, \
-  "" using "{u} [m]":"{v} [m]" with lines linewidth 1.5 linecolor "#000000" dashtype (6,4) notitle, \
-  "" using (column("{u} desired [m]") + enlarged * (column("{u} [m]") - column("{u} desired [m]"))):(column("{v} desired [m]") + enlarged * (column("{v} [m]") - column("{v} desired [m]"))) with lines linewidth 1.2 linecolor "#c33b4f" notitle
-)gp";
-
-/// @param u, v  axes shown: 0 for x, 1 for y, 2 for z
-Figure trajectory_figure(Figure figure, const RunPair& runs, std::size_t u, std::size_t v) {
-  const PanelGrid grid{.rows = 1, .columns = 2, .bottom = 0.2};
-  figure.drawing = fmt::format(
-      "set multiplot\nset size ratio -1    # equal units\nset xlabel \"{} [m]\"\nset ylabel \"{} "
-      "[m]\"\n",
-      kAxes.at(u), kAxes.at(v));
-  for (const JudgedRun* run : runs) {
-    const std::vector<TipSample> samples = tip_samples(*run);
-    const PathBounds bounds = path_bounds(samples);
-    figure.data.emplace_back(run->method, path_table(samples));
-    figure.provenance.push_back(run_provenance(*run));
-    figure.drawing += grid.place(0, run == runs[0] ? 0 : 1);
-    figure.drawing += fmt::format(kPathPanel, fmt::arg("title", plain(verdict_text(*run))),
-                                  fmt::arg("method", run->method), fmt::arg("u", kAxes.at(u)),
-                                  fmt::arg("v", kAxes.at(v)),
-                                  fmt::arg("x_range", bounds.range(static_cast<Eigen::Index>(u))),
-                                  fmt::arg("y_range", bounds.range(static_cast<Eigen::Index>(v))),
-                                  fmt::arg("enlarged", enlargement(samples)));
-  }
-  figure.drawing += legend_row(
-      {{LegendEntry::kLine, "linewidth 9 linecolor \"#cfcfcf\"", "desired path"},
-       {LegendEntry::kLine, "linewidth 1.5 linecolor \"#000000\" dashtype (6,4)", "actual path"},
-       {LegendEntry::kLine, "linewidth 1.2 linecolor \"#c33b4f\"",
-        "deviation enlarged, between ticks too"}},
-      figure.width);
-  return figure;
 }
 
 // --- errors along the axes
@@ -192,7 +109,7 @@ plot {close}, \
 
 Figure error_figure(Figure figure, const RunPair& runs, int axes) {
   add_close_spans(runs, figure);
-  const PanelGrid grid{.rows = axes, .columns = 2, .left = 0.1};
+  const PanelGrid grid{.rows = axes, .columns = 2, .left = 0.115};
   figure.drawing = fmt::format("set multiplot\nset xrange [0:{}]\n", runs[0]->problem().duration());
   std::array<std::vector<TickErrors>, 2> ticks;
   for (std::size_t r = 0; r < 2; ++r) {
@@ -248,24 +165,9 @@ CsvTable joint_table(const JudgedRun& run) {
   return table;
 }
 
-/// Heights of labels at the ends of curves: each at its curve's end, but no two closer than `apart`.
-std::vector<double> label_heights(const std::vector<double>& ends, double apart) {
-  std::vector<std::size_t> order(ends.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return ends[a] < ends[b]; });
-  std::vector<double> heights = ends;
-  for (int pass = 0; pass < 100; ++pass) {
-    for (std::size_t k = 1; k < order.size(); ++k) {
-      double& lower = heights[order[k - 1]];
-      double& upper = heights[order[k]];
-      const double missing = apart - (upper - lower);
-      if (missing <= 0) continue;
-      lower -= missing / 2;
-      upper += missing / 2;
-    }
-  }
-  return heights;
+std::string joint_style(std::size_t joint) {
+  constexpr std::size_t kStyles = 8;
+  return fmt::format("linestyle {}", (joint - 1) % kStyles + 1);
 }
 
 std::string curves(const JudgedRun& run, const char* letter, const char* unit) {
@@ -274,36 +176,26 @@ std::string curves(const JudgedRun& run, const char* letter, const char* unit) {
   for (std::size_t j = 1; j <= joints; ++j) {
     const std::size_t every = std::max<std::size_t>(run.rows() / 10, 1);
     elements += fmt::format(
-        ", \\\n  name . \"_{}.csv\" using \"t [s]\":\"{}{} [{}]\" with linespoints linestyle {} "
+        ", \\\n  name . \"_{}.csv\" using \"t [s]\":\"{}{} [{}]\" with linespoints {} "
         "pointinterval {} pointsize 0.9 notitle",
-        run.method, letter, j, unit, (j - 1) % 8 + 1, every);
+        run.method, letter, j, unit, joint_style(j), every);
   }
   return elements;
 }
 
 std::string joint_panel(const JudgedRun& run, bool velocities) {
   std::vector<double> values;
-  std::vector<double> ends;
   for (std::size_t row = 1; row < run.rows(); ++row) {
     const JointVector& q = run.trajectory().q[row];
     const JointVector step = (q - run.trajectory().q[row - 1]) / run.problem().dt;
     const JointVector& shown = velocities ? step : q;
     for (const double value : shown) values.push_back(value / kDegree);
-    if (row + 1 == run.rows()) ends.assign(values.end() - shown.size(), values.end());
   }
   if (values.empty()) values.push_back(0);
   const Range range = room_for(values);
   std::string text = fmt::format("bottom = {:.6g}; top = {:.6g}\nset yrange [bottom:top]\n",
                                  range.bottom, range.top);
-  text +=
-      fmt::format("set title \"{}\"\nunset label\n", velocities ? "" : plain(verdict_text(run)));
-  if (!velocities) {
-    const std::vector<double> heights = label_heights(ends, 0.045 * (range.top - range.bottom));
-    for (std::size_t j = 0; j < heights.size(); ++j) {
-      text +=
-          fmt::format("set label \"q_{}\" at graph 1.01, first {:.4g} left\n", j + 1, heights[j]);
-    }
-  }
+  text += fmt::format("set title \"{}\"\n", velocities ? "" : plain(verdict_text(run)));
   return text + "plot " + close_element(run) +
          (velocities ? curves(run, "v", "deg/s") : curves(run, "q", "deg")) + "\n";
 }
@@ -311,8 +203,7 @@ std::string joint_panel(const JudgedRun& run, bool velocities) {
 Figure joint_figure(Figure figure, const RunPair& runs) {
   add_close_spans(runs, figure);
   for (const JudgedRun* run : runs) figure.data.emplace_back(run->method, joint_table(*run));
-  const PanelGrid grid{
-      .rows = 2, .columns = 2, .left = 0.085, .right = 0.96, .bottom = 0.14, .gap_x = 0.11};
+  const PanelGrid grid{.rows = 2, .columns = 2, .left = 0.085, .bottom = 0.14};
   figure.drawing = fmt::format("set multiplot\nset xrange [0:{}]\n", runs[0]->problem().duration());
   for (const int row : {0, 1}) {
     figure.drawing += row == 0 ? "set format x \"\"\nset ylabel \"joint angle [deg]\"\n"
@@ -323,31 +214,17 @@ Figure joint_figure(Figure figure, const RunPair& runs) {
       figure.drawing += joint_panel(*runs.at(static_cast<std::size_t>(column)), row == 1);
     }
   }
-  figure.drawing += legend_row({kCloseLegend}, figure.width);
+  std::vector<LegendEntry> legend;
+  const auto joints = static_cast<std::size_t>(runs[0]->problem().chain.joints());
+  for (std::size_t j = 1; j <= joints; ++j) {
+    legend.push_back({LegendEntry::kMarkedLine, joint_style(j), fmt::format("q_{}", j)});
+  }
+  legend.push_back(kCloseLegend);
+  figure.drawing += legend_row(legend, figure.width);
   return figure;
 }
 
 }  // namespace
-
-Figure planar_trajectory(const JudgedRun& first, const JudgedRun& second) {
-  return trajectory_figure({.name = "fig10_planar_trajectory",
-                            .paper = "Fig. 10",
-                            .what = "Desired and actual path of the planar arm's tip, and the "
-                                    "deviation enlarged",
-                            .width = 1300,
-                            .height = 520},
-                           {&first, &second}, 0, 1);
-}
-
-Figure spatial_trajectory(const JudgedRun& first, const JudgedRun& second) {
-  return trajectory_figure({.name = "fig17_puma_trajectory",
-                            .paper = "Fig. 17",
-                            .what = "Desired and actual circle of the PUMA 560's tip, and the "
-                                    "deviation enlarged",
-                            .width = 1300,
-                            .height = 720},
-                           {&first, &second}, 1, 2);
-}
 
 Figure planar_errors(const JudgedRun& first, const JudgedRun& second) {
   return error_figure({.name = "fig11_planar_tracking_errors",

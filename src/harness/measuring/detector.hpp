@@ -28,10 +28,11 @@ inline constexpr double kTestPointMargin = 0.02;
 
 /// What a detector's answers are worth; `verify_detector` holds it to that.
 enum class Accuracy {
-  kExact,              ///< those of the reference, but for touching to within rounding
-  kLibrary,            ///< the same, but for touching to within the library's tolerance
-  kSampled,            ///< misses hits between its test points
-  kPaper,              ///< exact but for links that are vertical, or nearly so
+  kExact,    ///< those of the reference, but for touching to within rounding
+  kLibrary,  ///< the same, but for touching to within the library's tolerance
+  kSampled,  ///< hits are what has test points closer than the margin, at least, and nothing
+             ///< further away than that: misses hits between its test points
+  kPaper,    ///< exact but for links that are vertical, or nearly so
   kPaperConservative,  ///< never free where the reference finds a hit, but for links that look
                        ///< vertical, or nearly so, in one of the projections
 };

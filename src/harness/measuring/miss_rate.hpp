@@ -16,8 +16,8 @@ namespace bqsa::harness {
 /// to 25 cm, as those of `make_workload`, whose pairs are of the first population.
 enum class Population {
   /// Links of any place and direction: hits of every depth. What a random configuration has, as a planner
-  /// asks about. Links wholly inside an obstacle are missed however many points there are on its surface:
-  /// one hit in seventy in the plane.
+  /// asks about. Links wholly inside an obstacle, one hit in seventy in the plane, are missed however
+  /// many points there are on its surface, unless the detector asks for them (`test_points_inside`).
   kAnywhere,
 
   /// Links that run into the obstacle, in any direction, in steps of `kSweepStep`: the last step in which

@@ -29,16 +29,6 @@ class QuadraticDetection final : public Detection {
   std::vector<Obstacle> obstacles_;
 };
 
-template <int Dim>
-UnitBallMap<double, Dim> unit_ball_map(const Ellipsoid& shape) {
-  if constexpr (Dim == 2) {
-    const Ellipse ellipse = planar_section(shape);
-    return {ellipse.unit_map(), ellipse.center()};
-  } else {
-    return {shape.unit_map(), shape.center()};
-  }
-}
-
 Conic<double> conic(const Ellipsoid& shape) { return conic_from_ellipse(planar_section(shape)); }
 
 ShadowConics<double> shadow_conics(const Ellipsoid& shape) {

@@ -13,18 +13,12 @@
 
 #include "bqsa/geometry/paper_form.hpp"
 #include "bqsa/geometry/segment_test.hpp"
+#include "harness/measuring/unit_ball_map.hpp"
 
 namespace bqsa::harness {
 
 template <typename Scalar, int Dim>
 using PointOf = Eigen::Matrix<Scalar, Dim, 1>;
-
-/// What the test needs to know of an obstacle.
-template <typename Scalar, int Dim>
-struct UnitBallMap {
-  Eigen::Matrix<Scalar, Dim, Dim> unit_map;
-  PointOf<Scalar, Dim> center;
-};
 
 /// `hits` without branches.
 template <typename Scalar>

@@ -120,17 +120,13 @@ void put_in_order(Sweep& sweep) {
   sweep.sizes = reordered(sweep.sizes);
 }
 
-/// Contestants are compared process by process.
-void expect_equal_processes(const RecordValue& entries, const Sweep& sweep) {
-  std::size_t processes = 0;
+/// Ratios are taken within processes: what was measured has to come from all of them.
+void require_all_processes(const Sweep& sweep, std::size_t processes, const RecordValue& entries) {
   for (const Series& series : sweep.series) {
-    for (const std::vector<double>& seconds : series.seconds) {
-      if (processes == 0) processes = seconds.size();
-      if (!seconds.empty() && seconds.size() != processes) {
-        entries.refuse(
-            fmt::format("expected as many repetitions of all in {}, {}, got {} of {} at one size",
-                        sweep.name, processes, seconds.size(), series.name));
-      }
+    for (const std::vector<double>& times : series.seconds) {
+      if (times.empty() || times.size() == processes) continue;
+      entries.refuse(fmt::format("expected times of {} processes at every size of {}/{}, got {}",
+                                 processes, sweep.name, series.name, times.size()));
     }
   }
 }
@@ -142,12 +138,14 @@ Measurements read_measurements(const std::filesystem::path& file) {
   try {
     const RecordValue record(json, "", "measurements");
     Measurements measurements{.origin = read_origin(record["context"]), .sweeps = {}};
-    for (const RecordValue& entry : record["benchmarks"].list()) {
-      read_entry(entry, measurements.sweeps);
-    }
+    const RecordValue entries = record["benchmarks"];
+    for (const RecordValue& entry : entries.list()) read_entry(entry, measurements.sweeps);
+    if (measurements.sweeps.empty()) entries.refuse("expected a benchmark with times");
+    const auto processes =
+        static_cast<std::size_t>(record["context"]["bqsa"]["processes"].integer());
     for (Sweep& sweep : measurements.sweeps) {
       put_in_order(sweep);
-      expect_equal_processes(record["benchmarks"], sweep);
+      require_all_processes(sweep, processes, entries);
     }
     return measurements;
   } catch (const InputError& error) {

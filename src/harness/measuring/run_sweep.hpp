@@ -35,7 +35,7 @@ struct SweepSettings {
 
 /// In a process of some 20 s for all sweeps together.
 SweepSettings quick_sweeps();
-/// The paper's 100 passes whatever they take, more and longer blocks; a process of a minute or two.
+/// More and longer blocks; a process of a minute or two.
 SweepSettings full_sweeps();
 
 /// Told what is being measured, as `plane_nm`.

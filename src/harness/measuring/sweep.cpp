@@ -151,6 +151,8 @@ Estimate time_exponent(const Sweep& sweep, std::string_view name, std::size_t fr
   return over_processes(exponents);
 }
 
+std::size_t exponents_from(const Sweep& sweep) { return (sweep.sizes.size() - 1) / 2; }
+
 LinearTime linear_time(const Sweep& sweep, std::string_view name) {
   const Series& series = series_of(sweep, name);
   std::vector<double> x, medians;

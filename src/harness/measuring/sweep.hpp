@@ -36,8 +36,7 @@ struct Series {
   /// The paper's protocol: mean of 100 single passes by the wall clock, in the first process, [size];
   /// empty if it was not measured, not a number at sizes left out [s].
   std::vector<double> paper_seconds;
-  std::vector<int> paper_passes =
-      {};  ///< how many they were: fewer where 100 took too long, [size]
+  std::vector<int> paper_passes = {};  ///< how many they were, [size]
 
   bool measured(std::size_t size) const { return !seconds[size].empty(); }
 
@@ -74,6 +73,10 @@ Estimate time_ratio(const Sweep& sweep, std::string_view a, std::string_view b, 
 
 /// The slope of log(time) against log(axis) from the size `from` on, at least three sizes measured.
 Estimate time_exponent(const Sweep& sweep, std::string_view name, std::size_t from = 0);
+
+/// The size from which on exponents are shown: the larger half, in which what any pass costs does not
+/// matter.
+std::size_t exponents_from(const Sweep& sweep);
 
 /// time = intercept + slope x axis, weighted by 1/time², so that small sizes count as much as large. At
 /// least three sizes measured.

@@ -95,21 +95,67 @@ class VectorizedTestPointDetection final : public Detection {
   Eigen::VectorXd least_;  // of each point of the link at hand
 };
 
+/// Test points on the surface do not see a link that is inside: of every link the middle is asked too,
+/// which is inside whenever the whole link is.
+template <int Dim, typename Searched>
+class InsideTestedDetection final : public Detection {
+ public:
+  explicit InsideTestedDetection(const Workload& workload)
+      : links_(static_cast<std::size_t>(workload.size.links)), search_(workload) {
+    for (const Eigen::Matrix3Xd& pose : workload.poses) {
+      for (Eigen::Index i = 0; i + 1 < pose.cols(); ++i) {
+        middles_.push_back((0.5 * (pose.col(i) + pose.col(i + 1))).template head<Dim>());
+      }
+    }
+    for (const Ellipsoid& shape : workload.obstacles) {
+      obstacles_.push_back(unit_ball_map<Dim>(shape));
+    }
+  }
+
+  void detect(int pose, std::span<std::uint8_t> hit) override {
+    search_.detect(pose, hit);
+    const std::span<const Point> arm =
+        std::span(middles_).subspan(static_cast<std::size_t>(pose) * links_, links_);
+    std::uint8_t* answer = hit.data();
+    for (const UnitBallMap<double, Dim>& obstacle : obstacles_) {
+      for (const Point& middle : arm) *answer++ |= is_inside<double, Dim>(obstacle, middle);
+    }
+  }
+
+ private:
+  using Point = Eigen::Matrix<double, Dim, 1>;
+
+  std::size_t links_;  // a pose
+  Searched search_;
+  std::vector<Point> middles_;
+  std::vector<UnitBallMap<double, Dim>> obstacles_;
+};
+
+using Vectorized2 = VectorizedTestPointDetection<baselines::least_squared_distances_2d>;
+using Vectorized3 = VectorizedTestPointDetection<baselines::least_squared_distances_3d>;
+
 std::unique_ptr<Detection> one_by_one(const Workload& workload) {
   if (workload.size.dimension == 2) return std::make_unique<TestPointDetection<2>>(workload);
   return std::make_unique<TestPointDetection<3>>(workload);
 }
 
 std::unique_ptr<Detection> vectorized(const Workload& workload) {
+  if (workload.size.dimension == 2) return std::make_unique<Vectorized2>(workload);
+  return std::make_unique<Vectorized3>(workload);
+}
+
+std::unique_ptr<Detection> inside_tested(const Workload& workload) {
   if (workload.size.dimension == 2) {
-    return std::make_unique<VectorizedTestPointDetection<baselines::least_squared_distances_2d>>(
-        workload);
+    return std::make_unique<InsideTestedDetection<2, Vectorized2>>(workload);
   }
-  return std::make_unique<VectorizedTestPointDetection<baselines::least_squared_distances_3d>>(
-      workload);
+  return std::make_unique<InsideTestedDetection<3, Vectorized3>>(workload);
 }
 
 double multiplications(const WorkloadSize& size) { return size.dimension * size.point_pairs(); }
+
+double multiplications_inside_tested(const WorkloadSize& size) {
+  return multiplications(size) + (size.dimension == 2 ? 5 : 9);
+}
 
 }  // namespace
 
@@ -131,6 +177,14 @@ std::vector<Detector> test_point_detectors() {
        .in_space = true,
        .multiplications = multiplications,
        .prepare = vectorized},
+      {.name = "test_points_inside",
+       .label = "test points, vectorised, inside test",
+       .what = "`test_points_vectorized`, and whether the link's middle is inside the obstacle",
+       .accuracy = Accuracy::kSampled,
+       .in_plane = true,
+       .in_space = true,
+       .multiplications = multiplications_inside_tested,
+       .prepare = inside_tested},
   };
 }
 

@@ -1,11 +1,14 @@
 /// @file
-/// One pass of the paper's opponent over all pairs of test points. Templated on the scalar, so that
+/// What the paper's opponent asks of a pair of link and obstacle. Templated on the scalar, so that
 /// what is counted is what is timed.
 #pragma once
 
 #include <Eigen/Core>
 #include <limits>
 #include <span>
+
+#include "bqsa/geometry/segment_test.hpp"
+#include "harness/measuring/unit_ball_map.hpp"
 
 namespace bqsa::harness {
 
@@ -29,6 +32,14 @@ Scalar least_squared_distance(std::span<const Eigen::Matrix<Scalar, Dim, 1>> fro
     }
   }
   return least;
+}
+
+/// Whether a point is in the solid ellipse or ellipsoid: 5 or 9 multiplications.
+template <typename Scalar, int Dim>
+bool is_inside(const UnitBallMap<Scalar, Dim>& obstacle,
+               const Eigen::Matrix<Scalar, Dim, 1>& point) {
+  const Eigen::Matrix<Scalar, Dim, 1> u = unit_point(obstacle.unit_map, obstacle.center, point);
+  return inner(u, u) <= Scalar(1);
 }
 
 }  // namespace bqsa::harness

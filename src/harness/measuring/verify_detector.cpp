@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "harness/judge/exact_distance.hpp"
+#include "harness/measuring/test_points.hpp"
 
 namespace bqsa::harness {
 namespace {
@@ -20,6 +22,36 @@ bool looks_vertical(const Eigen::Vector3d& along, Accuracy accuracy) {
       return false;
   }
 }
+
+/// Where test points of link and obstacle are closer than the margin, and not just so.
+class ClosePoints {
+ public:
+  explicit ClosePoints(const Workload& workload)
+      : size_(workload.size),
+        links_(link_test_points(workload)),
+        obstacles_(obstacle_test_points(workload)) {}
+
+  bool found(int pose, int pair) const {
+    const auto& [link_points, obstacle_points] = size_.test_points;
+    const int i = pair % size_.links;
+    const int j = pair / size_.links;
+    const auto link = links_.middleCols((pose * size_.links + i) * link_points, link_points);
+    const auto obstacle = obstacles_.middleCols(j * obstacle_points, obstacle_points);
+    for (Eigen::Index k = 0; k < link_points; ++k) {
+      const Eigen::Vector3d p = link.col(k);
+      const double least = (obstacle.colwise() - p).colwise().squaredNorm().minCoeff();
+      if (std::sqrt(least) < kTestPointMargin - kRounding) return true;
+    }
+    return false;
+  }
+
+ private:
+  static constexpr double kRounding = 1e-12;  // [m]
+
+  WorkloadSize size_;
+  Eigen::Matrix3Xd links_;
+  Eigen::Matrix3Xd obstacles_;
+};
 
 }  // namespace
 
@@ -44,6 +76,8 @@ Verification verify_detector(const Detector& detector, const Workload& workload,
   const std::unique_ptr<Detection> detection = detector.prepare(workload);
   std::vector<std::uint8_t> answers(static_cast<std::size_t>(workload.size.pairs()));
   const double band = touching_band(detector.accuracy);
+  std::optional<ClosePoints> close_points;
+  if (detector.accuracy == Accuracy::kSampled) close_points.emplace(workload);
 
   Verification verification;
   auto clearance = reference.clearance.begin();
@@ -52,6 +86,9 @@ Verification verify_detector(const Detector& detector, const Workload& workload,
     const Eigen::Matrix3Xd& pose = workload.poses[static_cast<std::size_t>(p)];
     for (std::size_t pair = 0; pair < answers.size(); ++pair, ++clearance) {
       const auto i = static_cast<Eigen::Index>(pair) % workload.size.links;
+      if (close_points && answers[pair] == 0 && *clearance < kTestPointMargin) {
+        verification.overlooked += close_points->found(p, static_cast<int>(pair));
+      }
       if (std::abs(*clearance) < band) {
         ++verification.touching;
       } else if (looks_vertical(pose.col(i + 1) - pose.col(i), detector.accuracy)) {
@@ -84,7 +121,8 @@ double touching_band(Accuracy accuracy) {
 }
 
 std::string broken_promise(const Detector& detector, const Verification& verification) {
-  const auto& [hits, missed, free, false_alarms, far_alarms, touching, vertical] = verification;
+  const auto& [hits, missed, free, false_alarms, far_alarms, overlooked, touching, vertical] =
+      verification;
   if (hits == 0 || free == 0) {
     return fmt::format("{}: expected hits and free pairs to check it on, got {} and {}",
                        detector.name, hits, free);
@@ -100,6 +138,10 @@ std::string broken_promise(const Detector& detector, const Verification& verific
   if (far_alarms > 0 && sampled) {
     return fmt::format("{}: called {} pairs hits that are further apart than the margin",
                        detector.name, far_alarms);
+  }
+  if (overlooked > 0) {
+    return fmt::format("{}: called {} pairs free whose test points are closer than the margin",
+                       detector.name, overlooked);
   }
   return {};
 }

@@ -22,7 +22,8 @@ struct ReferenceAnswers {
 /// @param pairs_at_most  ask whole poses as long as there are no more pairs, one pose in any case
 ReferenceAnswers reference_answers(const Workload& workload, int pairs_at_most = 50'000);
 
-/// A detector's answers against the reference. Left out are pairs for which its accuracy promises
+/// A detector's answers against the reference, and those of test points against the test points, all
+/// pairs of which are tried. Left out are pairs for which its accuracy promises
 /// nothing: those that touch to within `touching_band`, and for the paper's forms links that are
 /// vertical to within `kVertical`.
 struct Verification {
@@ -31,6 +32,7 @@ struct Verification {
   int free = 0;          ///< by the reference
   int false_alarms = 0;  ///< of them
   int far_alarms = 0;    ///< of the false alarms: further away than `kTestPointMargin`
+  int overlooked = 0;    ///< called free though test points are closer than the margin
   int touching = 0;      ///< left out
   int vertical = 0;      ///< left out
 };
@@ -47,7 +49,9 @@ double touching_band(Accuracy accuracy);
 inline constexpr double kVertical = 1e-5;
 
 /// What the detector promised and did not keep, as `ccd_mpr: missed 3 of 120 hits`; empty if it did.
-/// Test points may miss, but nothing further away than their margin is a hit to them. A workload without a single hit or without a single free pair shows nothing and is not accepted.
+/// Test points may miss what none of them is near, but not what one is, and nothing further away than
+/// their margin is a hit to them. A workload without a single hit or without a single free pair shows
+/// nothing and is not accepted.
 std::string broken_promise(const Detector& detector, const Verification& verification);
 
 }  // namespace bqsa::harness

@@ -238,8 +238,7 @@ void declare(CLI::App& app, CommandLine& line) {
       ->required();
   CLI::Option* quick = measure->add_flag("--quick", line.quick, "One or two minutes [the default]");
   measure
-      ->add_flag("--full", line.measure.full,
-                 "More, longer blocks and more processes: a quarter of an hour")
+      ->add_flag("--full", line.measure.full, "More, longer blocks and more processes: ten minutes")
       ->excludes(quick);
   measure
       ->add_option("--sweep", line.measure.sweeps,
@@ -285,7 +284,7 @@ void declare(CLI::App& app, CommandLine& line) {
       app, "claims", "Evaluate the paper's claims: figures, bounds, verdicts (docs/claims.md)");
   CLI::Option* quick_claims =
       claims->add_flag("--quick", line.quick, "Two or three minutes [the default]");
-  claims->add_flag("--full", line.claims.full, "More samples and processes: an hour")
+  claims->add_flag("--full", line.claims.full, "More samples and processes: a quarter of an hour")
       ->excludes(quick_claims);
   claims->add_option("--claims", line.claims.claims, "Claims file [./claims.yaml]");
   claims->add_option("--measurements", line.claims.measurements,

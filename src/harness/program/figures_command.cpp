@@ -1,5 +1,7 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <ostream>
 #include <sstream>
 
@@ -10,6 +12,8 @@
 #include "harness/figures/posture_figures.hpp"
 #include "harness/figures/sweep_figures.hpp"
 #include "harness/figures/tracking_figures.hpp"
+#include "harness/figures/trajectory_figures.hpp"
+#include "harness/measuring/detector.hpp"
 #include "harness/measuring/measurements.hpp"
 #include "harness/measuring/run_sweep.hpp"
 #include "harness/program/commands.hpp"
@@ -19,8 +23,7 @@ namespace bqsa::harness {
 namespace {
 
 /// Figs. 8 to 12 of the paper.
-void write_planar_figures(const std::filesystem::path& scenarios, FigureWriter& writer) {
-  const Scenario planar = load_scenario(scenarios / "planar_7r.yaml");
+void write_planar_figures(const Scenario& planar, FigureWriter& writer) {
   const JudgedRun paper = judged_run(planar, "bqsa_paper");
   const JudgedRun exact = judged_run(planar, "bqsa");
   writer.write(planar_configurations(paper, exact));
@@ -32,8 +35,7 @@ void write_planar_figures(const std::filesystem::path& scenarios, FigureWriter& 
 }
 
 /// Figs. 14 to 20.
-void write_spatial_figures(const std::filesystem::path& scenarios, FigureWriter& writer) {
-  const Scenario ellipsoid = load_scenario(scenarios / "puma560_ellipsoid.yaml");
+void write_spatial_figures(const Scenario& ellipsoid, const Scenario& wall, FigureWriter& writer) {
   const JudgedRun projection = judged_run(ellipsoid, "bqsa_projection");
   const JudgedRun exact = judged_run(ellipsoid, "bqsa");
   writer.write(projected_configurations(projection, exact));
@@ -42,12 +44,31 @@ void write_spatial_figures(const std::filesystem::path& scenarios, FigureWriter&
   writer.write(spatial_trajectory(projection, exact));
   writer.write(spatial_errors(projection, exact));
   writer.write(spatial_joint_angles(projection, exact));
-
-  const Scenario wall = load_scenario(scenarios / "puma560_wall.yaml");
   writer.write(wall_configurations(judged_run(wall, "bqsa_projection"), judged_run(wall, "bqsa")));
 }
 
 constexpr std::uint64_t kMissRateSeed = 1;
+
+/// @throws InputError if it is no sweep of ours, or one of something that is no detector
+void require_detectors(const Sweep& sweep) {
+  const auto known = sweep_names();
+  if (std::find(known.begin(), known.end(), sweep.name) == known.end()) {
+    throw InputError(fmt::format("measurements: expected sweeps {}, got '{}'",
+                                 fmt::join(known, ", "), sweep.name));
+  }
+  for (const Series& series : sweep.series) {
+    try {
+      detector_named(series.name);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("measurements: {}: {}", sweep.name, error.what()));
+    }
+  }
+}
+
+bool measured_everywhere(const Series& series) {
+  return std::none_of(series.seconds.begin(), series.seconds.end(),
+                      [](const std::vector<double>& processes) { return processes.empty(); });
+}
 
 /// @throws InputError if the figures of a sweep of detectors in the plane cannot be made of it
 void require_paper_series(const Sweep& sweep) {
@@ -55,6 +76,7 @@ void require_paper_series(const Sweep& sweep) {
   for (const char* name : {"test_points", "bqsa_paper"}) {
     const Series* series = sweep.find(name);
     const bool complete = series != nullptr && sweep.sizes.size() >= kFewestSizes &&
+                          measured_everywhere(*series) &&
                           series->paper_seconds.size() == sweep.sizes.size() &&
                           series->paper_passes.size() == sweep.sizes.size();
     if (complete) continue;
@@ -73,14 +95,17 @@ void write_measured_figures(const Measurements& measurements, FigureWriter& writ
       writer.write(step_times(sweep, origin));
       continue;
     }
-    if (sweep.sizes.front().dimension == 2) {
-      require_paper_series(sweep);
-      writer.write(paper_times(sweep, origin));
-      writer.write(estimated_times(sweep, origin));
+    require_detectors(sweep);
+    const bool in_plane = sweep.sizes.front().dimension == 2;
+    if (in_plane) require_paper_series(sweep);
+    const MissRates misses = miss_rates(sweep, kMissRateSeed);
+    if (in_plane) {
+      writer.write(paper_times(sweep, misses, origin));
+      writer.write(estimated_times(sweep, misses, origin));
     }
-    writer.write(fair_times(sweep, origin));
+    writer.write(fair_times(sweep, misses, origin));
     if (sweep.axis != SweepAxis::kPointPairs) continue;
-    writer.write(times_against_miss_rate(sweep, miss_rates(sweep, kMissRateSeed), origin));
+    writer.write(times_against_miss_rate(sweep, misses, origin));
   }
 }
 
@@ -97,15 +122,23 @@ Measurements measure_now(const FiguresOptions& options, const Console& console) 
 }  // namespace
 
 Status figures_command(const FiguresOptions& options, const Console& console) {
+  const Scenario planar = load_scenario(options.scenarios / "planar_7r.yaml");
+  const Scenario ellipsoid = load_scenario(options.scenarios / "puma560_ellipsoid.yaml");
+  const Scenario wall = load_scenario(options.scenarios / "puma560_wall.yaml");
   const std::filesystem::path gnuplot = find_gnuplot();
   FigureWriter writer(options.directory, gnuplot);
   if (options.times) {
-    write_measured_figures(options.measurements.empty() ? measure_now(options, console)
-                                                        : read_measurements(options.measurements),
-                           writer);
+    const Measurements measurements = options.measurements.empty()
+                                          ? measure_now(options, console)
+                                          : read_measurements(options.measurements);
+    write_measured_figures(measurements, writer);
+    for (const std::string_view name : sweep_names()) {
+      if (name == kGateSweep || measurements.find(name) != nullptr) continue;
+      console.out << fmt::format("no times of {}: its figures are left out\n", name);
+    }
   }
-  write_planar_figures(options.scenarios, writer);
-  write_spatial_figures(options.scenarios, writer);
+  write_planar_figures(planar, writer);
+  write_spatial_figures(ellipsoid, wall, writer);
   writer.write_index("# Figures\n\nMade by bqsa-bench " + version_text() +
                      ". To change one, edit its script and run `gnuplot NAME.gp` here.\n");
   console.out << fmt::format("{}: wrote {} figures, see index.md\n", options.directory.string(),

@@ -97,7 +97,7 @@ void add_sweep(const Sweep& sweep, TextTable& table) {
       table.add_row({"  " + series.name, time_at(0), time_at(last), "-", "", "", ""});
       continue;
     }
-    const Estimate exponent = time_exponent(sweep, series.name, sweep.sizes.size() / 2);
+    const Estimate exponent = time_exponent(sweep, series.name, exponents_from(sweep));
     table.add_row(
         {"  " + series.name, time_at(0), time_at(last), fmt::format("{:.3f}", exponent.value),
          range_text(exponent.interval), crossover_text(sweep, series.name, "bqsa"),

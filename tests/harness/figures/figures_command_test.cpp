@@ -126,10 +126,34 @@ TEST(FiguresCommand, RefusesWhatItCannotUse) {
                  "--without-times");
 
   fs::create_directories(directory.path() / "swapped");
-  fs::copy_file(kPuma, directory.path() / "swapped" / "planar_7r.yaml");
+  for (const char* name : {"planar_7r", "puma560_ellipsoid", "puma560_wall"}) {
+    fs::copy_file(kPuma, directory.path() / "swapped" / (std::string(name) + ".yaml"));
+  }
   expect_refused({"figures", "--without-times", "--scenarios",
                   (directory.path() / "swapped").string(), "--out", out},
                  "expected a scenario for bqsa_paper");
+}
+
+/// The sweep of the gate is in every file that `measure` writes, and in no figure.
+TEST(FiguresCommand, TakesWhatMeasureWrites) {
+  const TemporaryDirectory directory;
+  const std::string file = (directory.path() / "m.json").string();
+  const std::string out = (directory.path() / "out").string();
+  ASSERT_EQ(
+      run_bqsa_bench({"measure", "--sweep", "gate", "--processes", "1", "--out", file}).status, 0);
+  const ProgramResult result =
+      run_bqsa_bench({"figures", "--measurements", file, "--scenarios", kScenarios, "--out", out});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("no times of plane_nm: its figures are left out"));
+  EXPECT_THAT(result.out, HasSubstr("wrote 13 figures"));
+}
+
+/// Before it measures, which takes minutes.
+TEST(FiguresCommand, AsksForScenariosFirst) {
+  const TemporaryDirectory directory;
+  expect_refused({"figures", "--scenarios", "/nonexistent", "--out", directory.path().string()},
+                 "/nonexistent/planar_7r.yaml");
+  EXPECT_TRUE(fs::is_empty(directory.path()));
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ constexpr double kMicrosecond = 1e-6;
 /// Test points take 2 us a point pair, all others 25 us a pass, in three processes that differ by 0 and
 /// +-1 %.
 double made_up_time(std::string_view detector, const WorkloadSize& size, int process) {
-  const bool sampled = detector == "test_points" || detector == "test_points_vectorized";
+  const bool sampled = detector.starts_with("test_points");
   return (sampled ? 2.0 * size.point_pairs() : 25.0) * kMicrosecond * (1 + 0.01 * (process - 1));
 }
 
@@ -63,18 +63,18 @@ TEST(SweepFigures, SayWhatTheirTimesAreWorth) {
   EXPECT_EQ(made_up_origin().against, "a busy machine");
   EXPECT_THAT(made_up_origin().caption, HasSubstr(build_info().commit.substr(0, 10)));
   const Figure figure =
-      fair_times(made_up_sweep("plane_nm", SweepAxis::kPointPairs, 2), made_up_origin());
+      fair_times(made_up_sweep("plane_nm", SweepAxis::kPointPairs, 2), {}, made_up_origin());
   EXPECT_THAT(figure.drawing, HasSubstr("not publishable: a busy machine"));
   EXPECT_THAT(gnuplot_script(figure), HasSubstr("\n# bqsa-bench"));
   MeasurementOrigin clean;
   const Figure unmarked =
-      fair_times(made_up_sweep("plane_nm", SweepAxis::kPointPairs, 2), times_origin(clean));
+      fair_times(made_up_sweep("plane_nm", SweepAxis::kPointPairs, 2), {}, times_origin(clean));
   EXPECT_THAT(gnuplot_script(unmarked), Not(HasSubstr("not publishable")));
 }
 
 TEST(SweepFigures, ShowThePaperProtocolOnLinearAxes) {
   const Figure figure =
-      paper_times(made_up_sweep("plane_nm", SweepAxis::kPointPairs, 2), made_up_origin());
+      paper_times(made_up_sweep("plane_nm", SweepAxis::kPointPairs, 2), {}, made_up_origin());
   EXPECT_EQ(figure.name, "fig05_time_against_nm");
   const ReadTable table = data_of(figure, "");
   ASSERT_EQ(table.rows.size(), 4);
@@ -90,7 +90,7 @@ TEST(SweepFigures, ShowThePaperProtocolOnLinearAxes) {
 /// logarithms 0.0100003, t of two degrees of freedom 4.302653: 2.48 % either way.
 TEST(SweepFigures, ShowIntervalsOverProcesses) {
   const Figure figure =
-      fair_times(made_up_sweep("plane_nk", SweepAxis::kPairs, 2), made_up_origin());
+      fair_times(made_up_sweep("plane_nk", SweepAxis::kPairs, 2), {}, made_up_origin());
   EXPECT_EQ(figure.name, "fig06_fair");
   const ReadTable table = data_of(figure, "");
   EXPECT_NEAR(table.number(2, "bqsa [us]"), 25, 0.002);
@@ -106,7 +106,7 @@ TEST(SweepFigures, LeaveOutWhatWasNotMeasured) {
       if (!processes.empty()) processes = {processes.front()};
     }
   }
-  const ReadTable table = data_of(fair_times(sweep, made_up_origin()), "");
+  const ReadTable table = data_of(fair_times(sweep, {}, made_up_origin()), "");
   EXPECT_EQ(table.text(3, sweep.series[0].name + " [us]"), "");
   EXPECT_NE(table.text(2, sweep.series[0].name + " [us]"), "");
   EXPECT_EQ(table.text(2, sweep.series[0].name + " lower [us]"), "");  // one process bounds nothing
@@ -116,7 +116,7 @@ TEST(SweepFigures, LeaveOutWhatWasNotMeasured) {
 /// there, too, for both are powers.
 TEST(SweepFigures, MarkTheCrossoverAndTheLines) {
   const Figure figure =
-      estimated_times(made_up_sweep("plane_nm", SweepAxis::kPointPairs, 2), made_up_origin());
+      estimated_times(made_up_sweep("plane_nm", SweepAxis::kPointPairs, 2), {}, made_up_origin());
   EXPECT_THAT(figure.drawing, HasSubstr("predicted: NM = 12.5"));
   EXPECT_THAT(figure.drawing, HasSubstr("measured: NM = 12.50"));
   const ReadTable fits = data_of(figure, "fits");
@@ -150,6 +150,19 @@ TEST(SweepFigures, PutMissRatesBesideTimes) {
   EXPECT_EQ(anywhere.text(1, "miss rate"), "0.75");
   EXPECT_NEAR(anywhere.number(1, "time a pair [ns]"), 2e4 / 27, 1e-3);
   EXPECT_EQ(anywhere.text(2, "shown at"), "0.05");
+
+  for (const Figure& times : {fair_times(sweep, misses, made_up_origin()),
+                              paper_times(sweep, misses, made_up_origin())}) {
+    const ReadTable beside = data_of(times, "");
+    EXPECT_EQ(beside.text(1, "missed by test points"), "0.75");
+    EXPECT_EQ(beside.text(1, "missed by test points at first contact"), "0.9");
+    EXPECT_EQ(beside.text(2, "missed by test points"), "0.05");
+    EXPECT_EQ(beside.text(3, "missed by test points"), "");  // not asked
+  }
+  const std::string drawing = fair_times(sweep, misses, made_up_origin()).drawing;
+  EXPECT_THAT(drawing, HasSubstr("set x2tics (\"75\" 10, \"5\" 100)"));
+  EXPECT_EQ(miss_text(misses, sweep.sizes[1]),
+            "test points miss 75 % of hits, 90 % at first contact");
 }
 
 TEST(SweepFigures, AreDrawnWithoutComplaint) {
@@ -160,13 +173,13 @@ TEST(SweepFigures, AreDrawnWithoutComplaint) {
     const std::string where = dimension == 2 ? "plane" : "space";
     const Sweep nm = made_up_sweep(where + "_nm", SweepAxis::kPointPairs, dimension);
     const Sweep nk = made_up_sweep(where + "_nk", SweepAxis::kPairs, dimension);
-    writer.write(fair_times(nm, made_up_origin()));
-    writer.write(fair_times(nk, made_up_origin()));
+    writer.write(fair_times(nm, {}, made_up_origin()));
+    writer.write(fair_times(nk, {}, made_up_origin()));
     if (dimension == 3) continue;
-    writer.write(paper_times(nm, made_up_origin()));
-    writer.write(paper_times(nk, made_up_origin()));
-    writer.write(estimated_times(nm, made_up_origin()));
-    writer.write(estimated_times(nk, made_up_origin()));
+    writer.write(paper_times(nm, {}, made_up_origin()));
+    writer.write(paper_times(nk, {}, made_up_origin()));
+    writer.write(estimated_times(nm, {}, made_up_origin()));
+    writer.write(estimated_times(nk, {}, made_up_origin()));
   }
   Sweep steps = made_up_sweep("step_nk", SweepAxis::kPairs, 2);
   steps.series = {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "figure_data.hpp"
+#include "harness/figures/trajectory_figures.hpp"
 
 namespace bqsa::harness {
 namespace {
@@ -95,6 +96,10 @@ TEST(TrackingFigures, ShowTheTrajectoryAndItsDifferences) {
     }
   }
   EXPECT_NEAR(largest_step, run.judgement.max_joint_step, 1e-10);
+  const std::string& drawing = planar_joint_angles(run, run).drawing;
+  for (int j = 1; j <= 7; ++j) {
+    EXPECT_NE(drawing.find("set label \"q_" + std::to_string(j) + "\""), std::string::npos);
+  }
 }
 
 /// Links that were moved away are left in or near contact: those ticks are shaded, and not all others.

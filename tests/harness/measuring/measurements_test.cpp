@@ -162,6 +162,11 @@ TEST_F(MeasurementsFile, SaysWhereItIsNotWhatItShouldBe) {
                         "test_points at one size"));
   EXPECT_THAT(refusal(with("plane_nm/bqsa/NM:6/nk:27", "plane_nm")),
               HasSubstr("benchmarks[0].name: expected SWEEP/SERIES/..."));
+  EXPECT_THAT(refusal(with("\"processes\": 2", "\"processes\": 3")),
+              HasSubstr("benchmarks: expected times of 3 processes at every size of plane_nm/bqsa, "
+                        "got 2"));
+  EXPECT_THAT(refusal(good.substr(0, good.find("\"benchmarks\": [")) + "\"benchmarks\": []}"),
+              HasSubstr("benchmarks: expected a benchmark with times"));
 }
 
 /// An independent reader of the format: the tool that Google Benchmark ships.

@@ -92,14 +92,19 @@ TEST(MissRate, IsTheSameOfBothTestPointLoops) {
 }
 
 /// Links wholly inside an ellipse, further from its surface than the margin, are missed by any number
-/// of points on the surface.
-TEST(MissRate, AnywhereDoesNotFallToZeroInThePlane) {
+/// of points on the surface, and found by the inside test.
+TEST(MissRate, AnywhereFallsToZeroInThePlaneWithTheInsideTestOnly) {
   const PairPopulation& pairs = populations().front().pairs;
   const Detector& detector = detector_named("test_points_vectorized");
   const MissRate many = pairs.ask(detector, {.link = 50, .obstacle = 200});
   const MissRate more = pairs.ask(detector, {.link = 100, .obstacle = 400});
   EXPECT_GT(more.missed, 30);
   EXPECT_NEAR(many.missed, more.missed, 5);
+  const MissRate inside =
+      pairs.ask(detector_named("test_points_inside"), {.link = 100, .obstacle = 400});
+  EXPECT_EQ(inside.hits, more.hits);
+  EXPECT_EQ(inside.missed, 0);
+  EXPECT_EQ(inside.far_alarms, 0);
 }
 
 TEST(MissRate, ComesFromTheSeedAlone) {

@@ -42,17 +42,10 @@ Conic<CountingScalar> counting(const Conic<double>& conic) {
 }
 
 template <int Dim>
-UnitBallMap<CountingScalar, Dim> unit_ball_map(const Ellipsoid& shape) {
-  UnitBallMap<CountingScalar, Dim> map;
-  if constexpr (Dim == 2) {
-    const Ellipse ellipse = planar_section(shape);
-    map.unit_map = ellipse.unit_map().template cast<CountingScalar>();
-    map.center = ellipse.center().template cast<CountingScalar>();
-  } else {
-    map.unit_map = shape.unit_map().template cast<CountingScalar>();
-    map.center = shape.center().template cast<CountingScalar>();
-  }
-  return map;
+UnitBallMap<CountingScalar, Dim> counting_ball(const Ellipsoid& shape) {
+  const UnitBallMap<double, Dim> ball = unit_ball_map<Dim>(shape);
+  return {ball.unit_map.template cast<CountingScalar>(),
+          ball.center.template cast<CountingScalar>()};
 }
 
 Conic<CountingScalar> conic(const Ellipsoid& shape) {
@@ -100,13 +93,13 @@ double stated(std::string_view name, int dimension) {
 TEST(DetectorMultiplications, OfTheForms) {
   const auto polar2 = polar_pass<CountingScalar, 2>;
   const auto polar3 = polar_pass<CountingScalar, 3>;
-  EXPECT_DOUBLE_EQ(counted<2>(2, unit_ball_map<2>, polar2), stated("bqsa", 2));
-  EXPECT_DOUBLE_EQ(counted<3>(3, unit_ball_map<3>, polar3), stated("bqsa", 3));
-  EXPECT_DOUBLE_EQ(counted<3>(2, unit_ball_map<3>, polar3), stated("bqsa_space", 2));
+  EXPECT_DOUBLE_EQ(counted<2>(2, counting_ball<2>, polar2), stated("bqsa", 2));
+  EXPECT_DOUBLE_EQ(counted<3>(3, counting_ball<3>, polar3), stated("bqsa", 3));
+  EXPECT_DOUBLE_EQ(counted<3>(2, counting_ball<3>, polar3), stated("bqsa_space", 2));
   const auto parameter2 = parameter_pass<CountingScalar, 2>;
   const auto parameter3 = parameter_pass<CountingScalar, 3>;
-  EXPECT_EQ(counted<2>(2, unit_ball_map<2>, parameter2), stated("bqsa_parameter", 2));
-  EXPECT_EQ(counted<3>(3, unit_ball_map<3>, parameter3), stated("bqsa_parameter", 3));
+  EXPECT_EQ(counted<2>(2, counting_ball<2>, parameter2), stated("bqsa_parameter", 2));
+  EXPECT_EQ(counted<3>(3, counting_ball<3>, parameter3), stated("bqsa_parameter", 3));
 }
 
 TEST(DetectorMultiplications, OfThePaperAsItCountsAndItsCriteriaAtTheEnds) {
@@ -131,6 +124,14 @@ double counted_test_points() {
   return static_cast<double>(CountingScalar::multiplications());
 }
 
+template <int Dim>
+double counted_inside_test() {
+  const auto ball = counting_ball<Dim>(workload_of(Dim).obstacles.front());
+  CountingScalar::reset();
+  is_inside<CountingScalar, Dim>(ball, CountingPoint<Dim>::Zero());
+  return static_cast<double>(CountingScalar::multiplications());
+}
+
 TEST(DetectorMultiplications, OfTestPoints) {
   EXPECT_EQ(counted_test_points<2>(), 2 * 5 * 8);
   EXPECT_EQ(counted_test_points<3>(), 3 * 5 * 8);
@@ -138,6 +139,8 @@ TEST(DetectorMultiplications, OfTestPoints) {
     EXPECT_EQ(counted_test_points<2>(), stated(name, 2));
     EXPECT_EQ(counted_test_points<3>(), stated(name, 3));
   }
+  EXPECT_EQ(counted_test_points<2>() + counted_inside_test<2>(), stated("test_points_inside", 2));
+  EXPECT_EQ(counted_test_points<3>() + counted_inside_test<3>(), stated("test_points_inside", 3));
 }
 
 TEST(DetectorMultiplications, AreNoNumberForLibrariesAndIterations) {

@@ -103,6 +103,34 @@ TEST(TestPoints, VectorizedGiveTheSameAnswers) {
   }
 }
 
+/// Against the definition in long double: semi-axes and rotation.
+TEST(TestPoints, InsideTestAddsLinksWhoseMiddleIsInside) {
+  for (const int dimension : {2, 3}) {
+    const Workload workload = workload_of(dimension, {.link = 5, .obstacle = 30});
+    const Answers points = answers("test_points", workload);
+    const Answers found = answers("test_points_inside", workload);
+    int added = 0;
+    for (std::size_t p = 0; p < found.size(); ++p) {
+      for (std::size_t pair = 0; pair < found[p].size(); ++pair) {
+        const auto i = static_cast<Eigen::Index>(pair % 6);
+        const Ellipsoid& shape = workload.obstacles[pair / 6];
+        const Eigen::Vector3d middle =
+            0.5 * (workload.poses[p].col(i) + workload.poses[p].col(i + 1));
+        const Eigen::Matrix<long double, 3, 1> turned =
+            (shape.rotation().transpose() * (middle - shape.center())).cast<long double>();
+        long double squares = 0;
+        for (int k = 0; k < dimension; ++k) {
+          const long double part = turned(k) / static_cast<long double>(shape.semi_axes()(k));
+          squares += part * part;
+        }
+        EXPECT_EQ(found[p][pair], points[p][pair] | (squares <= 1)) << static_cast<double>(squares);
+        added += found[p][pair] - points[p][pair];
+      }
+    }
+    EXPECT_GT(added, 20);
+  }
+}
+
 /// Evenly spaced points of 2^k intervals contain those of 2^(k-1): what few points see, more see too.
 TEST(TestPoints, MoreOfThemSeeWhatFewerSawAndMissLess) {
   int before = -1;

@@ -107,7 +107,8 @@ TEST_F(VerifyDetector, HoldsAConservativeOneToItsHitsOnly) {
 }
 
 TEST_F(VerifyDetector, HoldsTestPointsToTheirMargin) {
-  EXPECT_THAT(broken(wrong<AlwaysFree>(Accuracy::kSampled)), IsEmpty());
+  EXPECT_THAT(broken(wrong<AlwaysFree>(Accuracy::kSampled)), HasSubstr("closer than the margin"));
+  EXPECT_THAT(broken(wrong<OfTheLastPose>(Accuracy::kSampled)), HasSubstr("the margin"));
   EXPECT_THAT(broken(wrong<AlwaysHit>(Accuracy::kSampled)), HasSubstr("than the margin"));
 }
 
