@@ -14,7 +14,7 @@ namespace bqsa::harness {
 
 namespace {
 
-std::string percentage(double share) { return fmt::format("{:.2g}", 100 * share); }
+std::string percentage(double share) { return fmt::format("{:.3g}", 100 * share); }
 
 }  // namespace
 

@@ -31,10 +31,10 @@ class ClosePoints {
         links_(link_test_points(workload)),
         obstacles_(obstacle_test_points(workload)) {}
 
-  bool found(int pose, int pair) const {
+  bool found(Eigen::Index pose, Eigen::Index pair) const {
     const auto& [link_points, obstacle_points] = size_.test_points;
-    const int i = pair % size_.links;
-    const int j = pair / size_.links;
+    const Eigen::Index i = pair % size_.links;
+    const Eigen::Index j = pair / size_.links;
     const auto link = links_.middleCols((pose * size_.links + i) * link_points, link_points);
     const auto obstacle = obstacles_.middleCols(j * obstacle_points, obstacle_points);
     for (Eigen::Index k = 0; k < link_points; ++k) {
@@ -87,7 +87,7 @@ Verification verify_detector(const Detector& detector, const Workload& workload,
     for (std::size_t pair = 0; pair < answers.size(); ++pair, ++clearance) {
       const auto i = static_cast<Eigen::Index>(pair) % workload.size.links;
       if (close_points && answers[pair] == 0 && *clearance < kTestPointMargin) {
-        verification.overlooked += close_points->found(p, static_cast<int>(pair));
+        verification.overlooked += close_points->found(p, static_cast<Eigen::Index>(pair));
       }
       if (std::abs(*clearance) < band) {
         ++verification.touching;
