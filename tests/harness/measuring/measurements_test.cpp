@@ -158,8 +158,8 @@ TEST_F(MeasurementsFile, SaysWhereItIsNotWhatItShouldBe) {
   Measurements cut = example();
   cut.sweeps[0].series[1].seconds[0].pop_back();
   EXPECT_THAT(refusal(measurements_json(cut)),
-              HasSubstr("benchmarks: expected as many repetitions of all in plane_nm, 2, got 1 of "
-                        "test_points at one size"));
+              HasSubstr("benchmarks: expected times of 2 processes at every size of "
+                        "plane_nm/test_points, got 1"));
   EXPECT_THAT(refusal(with("plane_nm/bqsa/NM:6/nk:27", "plane_nm")),
               HasSubstr("benchmarks[0].name: expected SWEEP/SERIES/..."));
   EXPECT_THAT(refusal(with("\"processes\": 2", "\"processes\": 3")),
