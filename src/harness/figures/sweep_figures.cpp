@@ -167,7 +167,7 @@ Figure estimated_times(const Sweep& sweep, const MissRates& misses, const TimesO
   Figure figure = new_times_figure(
       fmt::format("{}_estimated", figure_stem(sweep)), paper_number(sweep),
       fmt::format(
-          "The same by our own estimator, {}: median over interleaved blocks, 95 % intervals "
+          "The same by our own estimator, {}: interleaved blocks, 95 % intervals "
           "over processes, fitted lines{}",
           fixed_text(sweep),
           sweep.axis == SweepAxis::kPointPairs ? ", predicted and measured crossover" : ""),

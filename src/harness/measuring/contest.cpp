@@ -61,6 +61,18 @@ void shuffle(std::vector<std::size_t>& order, RandomStream& random) {
   }
 }
 
+/// The middle of value(0) .. value(count - 1), those that are not a number left out.
+template <typename Value>
+double median_of_known(std::size_t count, const Value& value) {
+  std::vector<double> known;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double one = value(i);
+    if (!std::isnan(one)) known.push_back(one);
+  }
+  std::sort(known.begin(), known.end());
+  return known.empty() ? 0 : median_of(known);
+}
+
 }  // namespace
 
 double thread_cpu_seconds() {
@@ -69,13 +81,26 @@ double thread_cpu_seconds() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-double ContestTimes::median() const {
-  std::vector<double> taken;
-  for (const double time : seconds) {
-    if (!std::isnan(time)) taken.push_back(time);
+std::vector<double> typical_seconds(const std::vector<ContestTimes>& times) {
+  const std::size_t rounds = times.front().seconds.size();
+  std::vector<double> contestant(times.size()), round(rounds);  // effects on the logarithm
+  constexpr int kPolishings = 10;
+  for (int i = 0; i < kPolishings; ++i) {
+    for (std::size_t c = 0; c < times.size(); ++c) {
+      contestant[c] = median_of_known(
+          rounds, [&](std::size_t r) { return std::log(times[c].seconds[r]) - round[r]; });
+    }
+    for (std::size_t r = 0; r < rounds; ++r) {
+      round[r] = median_of_known(times.size(), [&](std::size_t c) {
+        return std::log(times[c].seconds[r]) - contestant[c];
+      });
+    }
+    const double typical = median_of_known(rounds, [&](std::size_t r) { return round[r]; });
+    for (double& effect : round) effect -= typical;
   }
-  std::sort(taken.begin(), taken.end());
-  return median_of(taken);
+  std::vector<double> seconds;
+  for (const double effect : contestant) seconds.push_back(std::exp(effect));
+  return seconds;
 }
 
 std::vector<ContestTimes> run_contest(const std::vector<Contestant>& contestants,

@@ -36,10 +36,14 @@ struct ContestTimes {
   std::string name;
   std::vector<double> seconds;   ///< of a repetition, in each round; not a number if it sat out [s]
   std::int64_t repetitions = 0;  ///< in all blocks together
-
-  /// The middle of the rounds that it took part in [s].
-  double median() const;
 };
+
+/// Time of a repetition of each contestant in a typical round [s]. A round in which the machine is slow
+/// is slow for all: logarithms of times are taken as contestant plus round, both found by Tukey's median
+/// polish (Exploratory Data Analysis, 1977), so that single blocks do not count and neither does in which
+/// rounds a contestant sat out.
+/// @param times  of one contest
+std::vector<double> typical_seconds(const std::vector<ContestTimes>& times);
 
 /// First calibrates, which warms up: finds for each contestant the repetitions of a block. Then in
 /// every round each contestant has one block, in an order drawn anew. Slow contestants sit out

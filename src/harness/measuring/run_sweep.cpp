@@ -87,10 +87,11 @@ void verify(const Workload& workload, const std::vector<const Detector*>& detect
   }
 }
 
-/// Adds the medians of a contest of all series at all sizes, size by size.
+/// Adds what came out of a contest of all series at all sizes, size by size.
 void add(const std::vector<ContestTimes>& times, Sweep& sweep) {
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    sweep.series[i % sweep.series.size()].seconds.push_back({times[i].median()});
+  const std::vector<double> seconds = typical_seconds(times);
+  for (std::size_t i = 0; i < seconds.size(); ++i) {
+    sweep.series[i % sweep.series.size()].seconds.push_back({seconds[i]});
   }
 }
 

@@ -28,8 +28,8 @@ SweepAxis axis_of(std::string_view sweep_name);
 struct Series {
   std::string name;  ///< of the detector or method
 
-  /// Of one pass over all nk pairs, or one control step, [size][process]: the median over the
-  /// process's blocks, processor time of the thread [s]. At a size that was left out for this series
+  /// Of one pass over all nk pairs, or one control step, [size][process]: in a
+  /// typical round of the process (contest.hpp), processor time of the thread [s]. At a size that was left out for this series
   /// there is no process.
   std::vector<std::vector<double>> seconds;
 

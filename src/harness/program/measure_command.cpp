@@ -117,7 +117,8 @@ void print(const Measurements& measurements, std::ostream& out) {
                    {.head = "slower from NM on", .unit = "than the paper's", .optional = true}});
   for (const Sweep& sweep : measurements.sweeps) add_sweep(sweep, table);
   out << note << table.text()
-      << "\nTimes are medians over processes of medians over blocks, processor time of the thread. "
+      << "\nTimes are medians over processes of those in a typical round, processor time of the "
+         "thread. "
          "Exponent of\nNM or nk, over the upper half of the sizes; intervals over processes.\n"
       << note;
 }

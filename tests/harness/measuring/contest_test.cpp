@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace bqsa::harness {
@@ -43,7 +44,8 @@ TEST(Contests, FindTheTimeOfARepetition) {
   ASSERT_EQ(times[0].seconds.size(), 300u);
   for (const double time : times[0].seconds) EXPECT_NEAR(time, 1e-7, 1e-12);
   for (const double time : times[1].seconds) EXPECT_NEAR(time, 3e-5, 1e-12);
-  EXPECT_NEAR(times[1].median(), 3e-5, 1e-12);
+  EXPECT_THAT(typical_seconds(times), testing::ElementsAre(testing::DoubleNear(1e-7, 1e-12),
+                                                           testing::DoubleNear(3e-5, 1e-12)));
 }
 
 TEST(Contests, CalibrateBlocksToTheLengthAskedFor) {
@@ -80,7 +82,26 @@ TEST(Contests, LetSlowContestantsSitOutRoundsEvenly) {
   EXPECT_EQ(rounds_of(times[0]).size(), 12u);
   EXPECT_THAT(rounds_of(times[1]), testing::ElementsAre(2, 5, 8, 11));
   EXPECT_THAT(rounds_of(times[2]), testing::ElementsAre(3, 7, 11));  // over the budget all the same
-  EXPECT_NEAR(times[2].median(), 1.0, 1e-9);
+  EXPECT_NEAR(typical_seconds(times)[2], 1.0, 1e-9);
+}
+
+/// Contestants of 2, 10 and three of 3 s, a machine of two speeds, and two blocks that were disturbed. By medians over blocks alone the second, of which only slow rounds are left, would seem to
+/// take 16 s.
+TEST(Contests, TypicalTimesDoNotDependOnTheRoundsThatWereSlow) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<double> pace{1, 1.6, 1, 1, 1.6, 1, 1.6, 1, 1};
+  std::vector<ContestTimes> times(5);
+  for (const double slower : pace) {
+    times[0].seconds.push_back(2 * slower);
+    times[1].seconds.push_back(slower > 1 ? 10 * slower : none);
+    for (const std::size_t c : {2, 3, 4}) times[c].seconds.push_back(3 * slower);
+  }
+  times[0].seconds[3] *= 50;
+  times[2].seconds[0] *= 7;
+  const std::vector<double> seconds = typical_seconds(times);
+  EXPECT_NEAR(seconds[0], 2, 1e-9);
+  EXPECT_NEAR(seconds[1], 10, 1e-9);
+  for (const std::size_t c : {2, 3, 4}) EXPECT_NEAR(seconds[c], 3, 1e-9);
 }
 
 /// Halfway the machine becomes three times slower, and its pace wavers: alone, one contestant would have
