@@ -1,7 +1,7 @@
 # Fig. 5 of the paper
 # Time of all detectors against NM, in the plane, nk = 27.
 # To draw it again, as SVG and as PNG: gnuplot fig05_fair.gp
-# bqsa-bench 0.1.0, commit 2bdbd5bb50, GNU 12.2.0, AMD EPYC, measured 2026-11-25T18:58:27Z (quick)
+# bqsa-bench 0.1.0, commit 024c079f57, GNU 12.2.0, AMD EPYC, measured 2026-11-25T19:05:19Z (quick)
 # flags -O3 -DNDEBUG; governor unknown; others kept 0.00 of 2 cores busy; Debian GNU/Linux 12 (bookworm), kernel 6.18.44-fc-v657
 
 name = "fig05_fair"
@@ -28,7 +28,7 @@ set style line 7 linecolor "#d9b13b" linewidth 2 dashtype solid      pointtype 6
 set style line 8 linecolor "#9a9a9a" linewidth 2 dashtype (9,3,2,3,2,3) pointtype 12
 
 set multiplot
-set label 99 "bqsa-bench 0.1.0, commit 2bdbd5bb50, GNU 12.2.0, AMD EPYC, measured 2026-11-25T18:58:27Z (quick)" at screen 0.012,0.016 left font ",9" textcolor "#505050"
+set label 99 "bqsa-bench 0.1.0, commit 024c079f57, GNU 12.2.0, AMD EPYC, measured 2026-11-25T19:05:19Z (quick)" at screen 0.012,0.016 left font ",9" textcolor "#505050"
 set logscale xy
 set format x "10^{%L}"
 set format y "10^{%L}"
