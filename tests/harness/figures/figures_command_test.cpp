@@ -120,8 +120,9 @@ TEST(FiguresCommand, RefusesWhatItCannotUse) {
                  "expected a directory that can be made");
   expect_refused({"figures", "--without-times", "--scenarios", "/nonexistent", "--out", out},
                  "/nonexistent/planar_7r.yaml");
-  expect_refused({"figures", "--measurements", "/nonexistent.json", "--out", out},
-                 "/nonexistent.json");
+  expect_refused(
+      {"figures", "--measurements", "/nonexistent.json", "--scenarios", kScenarios, "--out", out},
+      "/nonexistent.json");
   expect_refused({"figures", "--measurements", "a.json", "--without-times", "--out", out},
                  "--without-times");
 
