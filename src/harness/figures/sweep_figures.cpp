@@ -166,11 +166,10 @@ std::string crossover_marks(const Sweep& sweep) {
 Figure estimated_times(const Sweep& sweep, const MissRates& misses, const TimesOrigin& origin) {
   Figure figure = new_times_figure(
       fmt::format("{}_estimated", figure_stem(sweep)), paper_number(sweep),
-      fmt::format(
-          "The same by our own estimator, {}: interleaved blocks, 95 % intervals "
-          "over processes, fitted lines{}",
-          fixed_text(sweep),
-          sweep.axis == SweepAxis::kPointPairs ? ", predicted and measured crossover" : ""),
+      fmt::format("The same by our own estimator, {}: interleaved blocks, 95 % intervals "
+                  "over processes, fitted lines{}",
+                  fixed_text(sweep),
+                  sweep.axis == SweepAxis::kPointPairs ? ", predicted and measured crossover" : ""),
       origin);
   CsvTable fits({"series", "intercept [us]", "intercept lower [us]", "intercept upper [us]",
                  "slope [us]", "slope lower [us]", "slope upper [us]", "r squared", "exponent from",
