@@ -8,8 +8,8 @@
 #include "harness/claims/claims_file.hpp"
 #include "harness/claims/claims_record.hpp"
 #include "harness/claims/claims_report.hpp"
-#include "harness/scratch_directory.hpp"
 #include "harness/program/commands.hpp"
+#include "harness/scratch_directory.hpp"
 #include "harness/text_file.hpp"
 
 namespace bqsa::harness {
