@@ -98,9 +98,8 @@ std::vector<double> typical_seconds(const std::vector<ContestTimes>& times) {
     const double typical = median_of_known(rounds, [&](std::size_t r) { return round[r]; });
     for (double& effect : round) effect -= typical;
   }
-  std::vector<double> seconds;
-  for (const double effect : contestant) seconds.push_back(std::exp(effect));
-  return seconds;
+  for (double& effect : contestant) effect = std::exp(effect);
+  return contestant;
 }
 
 std::vector<ContestTimes> run_contest(const std::vector<Contestant>& contestants,

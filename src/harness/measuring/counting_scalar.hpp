@@ -51,6 +51,7 @@ class CountingScalar {
 
 }  // namespace bqsa::harness
 
+/// @cond
 template <>
 struct Eigen::NumTraits<bqsa::harness::CountingScalar> : Eigen::NumTraits<double> {
   using Real = bqsa::harness::CountingScalar;
@@ -60,3 +61,4 @@ struct Eigen::NumTraits<bqsa::harness::CountingScalar> : Eigen::NumTraits<double
   // NOLINTNEXTLINE(readability-identifier-naming): the name that Eigen asks for
   enum { RequireInitialization = 1 };
 };
+/// @endcond

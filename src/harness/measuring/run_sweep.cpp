@@ -118,7 +118,8 @@ void sweep_detectors(int dimension, const SweepSettings& settings, const SweepPr
                                   ? workload_size(dimension, kPairs, step)
                                   : workload_size(dimension, step, kPointPairs);
     sweep.sizes.push_back(size);
-    DetectorsAtSize& at = all_sizes.emplace_back(make_workload(size, kWorkloadSeed));
+    DetectorsAtSize& at = all_sizes.emplace_back(
+        DetectorsAtSize{.workload = make_workload(size, kWorkloadSeed), .passes = {}});
     verify(at.workload, chosen, settings.verified_pairs);
     at.passes.reserve(chosen.size());
     for (const Detector* detector : chosen) {
