@@ -14,7 +14,7 @@
 #include "harness/claims/pose_categories.hpp"
 #include "harness/statistics/fits.hpp"
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 namespace {
 
 constexpr double kMillimetre = 1e-3;
@@ -294,4 +294,4 @@ std::vector<Estimator> behaviour_estimators() {
   };
 }
 
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

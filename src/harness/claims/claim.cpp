@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 
 bool Claim::timing() const {
   return std::any_of(calls.begin(), calls.end(),
@@ -51,4 +51,4 @@ std::string text_of(const Bound& bound) {
   return fmt::format("{} {:.6g}{}", sign, bound.lower, unit);
 }
 
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

@@ -8,7 +8,7 @@
 
 #include "harness/claims/estimator.hpp"
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 
 enum class Relation {
   kLess,
@@ -68,4 +68,4 @@ const char* name_of(Verdict verdict);
 /// `< 3.5 mm`, or `unknown: ...`.
 std::string text_of(const Bound& bound);
 
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

@@ -12,7 +12,7 @@
 #include "harness/scenario/yaml_value.hpp"
 #include "harness/text_file.hpp"
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 namespace {
 
 constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
@@ -208,4 +208,4 @@ std::vector<Claim> load_claims(const std::filesystem::path& file) {
   return claims;
 }
 
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

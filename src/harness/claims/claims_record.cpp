@@ -5,9 +5,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "harness/results/provenance_json.hpp"
 #include "harness/text_file.hpp"
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -80,21 +81,6 @@ Json claim_json(const EvaluatedClaim& result) {
   return json;
 }
 
-Json machine_json(const MachineState& machine) {
-  return {
-      {"processor", machine.processor}, {"cores", machine.cores}, {"governor", machine.governor},
-      {"load", machine.load},           {"os", machine.os},       {"date", machine.date}};
-}
-
-Json build_json(const BuildInfo& build) {
-  Json libraries = Json::object();
-  for (const auto& [name, version] : build.libraries) libraries[name] = version;
-  return {
-      {"version", build.version},       {"commit", build.commit},         {"dirty", build.dirty},
-      {"compiler", build.compiler},     {"build_type", build.build_type}, {"flags", build.flags},
-      {"assertions", build.assertions}, {"sanitizers", build.sanitizers}, {"libraries", libraries}};
-}
-
 }  // namespace
 
 Json claims_record(const std::vector<EvaluatedClaim>& claims, const EvaluationOrigin& origin) {
@@ -129,4 +115,4 @@ Json read_claims_record(const std::filesystem::path& file) {
   return record;
 }
 
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

@@ -12,7 +12,7 @@
 #include "harness/claims/evaluation.hpp"
 #include "harness/measuring/measurements.hpp"
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 
 /// Where an evaluation comes from.
 struct EvaluationOrigin {
@@ -31,4 +31,4 @@ nlohmann::ordered_json claims_record(const std::vector<EvaluatedClaim>& claims,
 /// @throws InputError naming the file if it is not what claims_record() made
 nlohmann::ordered_json read_claims_record(const std::filesystem::path& file);
 
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

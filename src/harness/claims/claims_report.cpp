@@ -11,7 +11,7 @@
 #include "harness/input_error.hpp"
 #include "harness/results/text_table.hpp"
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -240,4 +240,4 @@ std::string with_claims_block(std::string_view text, std::string_view table) {
   return fmt::format("{}{}{}", text.substr(0, begin + kBegin.size()), table, text.substr(end));
 }
 
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

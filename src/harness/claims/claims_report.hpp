@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 
 /// Two or more lines a claim, a legend, and a last line of counts.
 std::string claims_table(const nlohmann::ordered_json& record);
@@ -21,4 +21,4 @@ std::string claims_markdown(const nlohmann::ordered_json& record);
 /// @throws InputError if the lines are not there, once each and in this order
 std::string with_claims_block(std::string_view text, std::string_view table);
 
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

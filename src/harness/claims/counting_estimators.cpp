@@ -14,7 +14,7 @@
 #include "harness/measuring/quadratic_passes.hpp"
 #include "harness/measuring/test_point_pass.hpp"
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 namespace {
 
 template <int Dim>
@@ -268,4 +268,4 @@ std::vector<Estimator> counting_estimators() {
   };
 }
 
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

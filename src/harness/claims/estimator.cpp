@@ -8,7 +8,7 @@
 
 #include "harness/claims/estimator_lists.hpp"
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 
 double Arguments::number(const std::string& name) const {
   const std::string& text = texts_.at(name);
@@ -53,4 +53,4 @@ const Estimator* find_estimator(std::string_view name) {
   return nullptr;
 }
 
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

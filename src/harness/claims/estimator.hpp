@@ -13,7 +13,7 @@
 #include "harness/input_error.hpp"
 #include "harness/statistics/estimates.hpp"
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 
 class Laboratory;
 
@@ -79,4 +79,4 @@ const std::vector<Estimator>& estimators();
 /// Null if there is none.
 const Estimator* find_estimator(std::string_view name);
 
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

@@ -6,7 +6,7 @@
 
 #include "harness/claims/estimator.hpp"
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 
 std::vector<Estimator> counting_estimators();    ///< multiplications, counted as they are done
 std::vector<Estimator> timing_estimators();      ///< sweeps
@@ -15,4 +15,4 @@ std::vector<Estimator> kinematics_estimators();  ///< the hybrid inverse kinemat
 std::vector<Estimator> run_estimators();         ///< runs of methods on scenarios, judged
 std::vector<Estimator> behaviour_estimators();   ///< what happens within a run, tick by tick
 
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 namespace {
 
 std::vector<Outcome> outcomes_of(const std::vector<Bound>& bounds,
@@ -113,4 +113,4 @@ bool any_broken(const std::vector<EvaluatedClaim>& claims) {
                      [](const EvaluatedClaim& one) { return one.standing == Standing::kBroken; });
 }
 
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

@@ -10,7 +10,7 @@
 #include "harness/claims/laboratory.hpp"
 #include "harness/claims/verdict.hpp"
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 
 /// Whether a verdict is the reference's.
 enum class Standing {
@@ -52,4 +52,4 @@ std::vector<EvaluatedClaim> evaluate(const std::vector<Claim>& claims, Laborator
 /// Whether any claim no longer holds.
 bool any_broken(const std::vector<EvaluatedClaim>& claims);
 
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <utility>
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 namespace {
 
 constexpr double kMillimetre = 1e-3;
@@ -45,4 +45,4 @@ Experiment experiment_of(const Arguments& arguments) {
   return experiment;
 }
 
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

@@ -7,7 +7,7 @@
 #include "harness/claims/estimator.hpp"
 #include "harness/claims/laboratory.hpp"
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 
 /// scenario, method, moved, center; followed by `more`.
 std::vector<ArgumentDeclaration> experiment_arguments(std::vector<ArgumentDeclaration> more = {});
@@ -16,4 +16,4 @@ std::vector<ArgumentDeclaration> experiment_arguments(std::vector<ArgumentDeclar
 /// @throws InputError if `center` is not three numbers
 Experiment experiment_of(const Arguments& arguments);
 
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

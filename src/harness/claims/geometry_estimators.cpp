@@ -11,7 +11,7 @@
 #include "harness/claims/laboratory.hpp"
 #include "harness/claims/whole_number_geometry.hpp"
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 namespace {
 
 constexpr std::uint64_t kSeed = 20160601;
@@ -281,4 +281,4 @@ std::vector<Estimator> geometry_estimators() {
   };
 }
 
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

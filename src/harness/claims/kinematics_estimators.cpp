@@ -8,7 +8,7 @@
 #include "harness/claims/estimator_lists.hpp"
 #include "harness/claims/laboratory.hpp"
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 namespace {
 
 using Eigen::MatrixXd;
@@ -205,4 +205,4 @@ std::vector<Estimator> kinematics_estimators() {
   };
 }
 
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

@@ -9,7 +9,7 @@
 #include "harness/scratch_directory.hpp"
 #include "harness/text_file.hpp"
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 namespace {
 
 const Family& planar_family(const std::string& name) {
@@ -95,4 +95,4 @@ const Sweep* Laboratory::sweep(std::string_view name) const {
   return found == sweeps_.end() ? nullptr : &*found;
 }
 
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

@@ -16,7 +16,7 @@
 #include "harness/measuring/sweep.hpp"
 #include "harness/scenario/scenario.hpp"
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 
 /// What is run: a scenario, changed as told, and a method on it.
 struct Experiment {
@@ -80,4 +80,4 @@ class Laboratory {
   std::map<std::string, Judgement> judgements_;
 };
 
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

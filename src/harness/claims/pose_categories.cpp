@@ -1,6 +1,6 @@
 #include "harness/claims/pose_categories.hpp"
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 
 std::vector<PairCategory> pair_categories(const Problem& problem, const JointVector& q, int tick) {
   ChainPose pose;
@@ -16,4 +16,4 @@ std::vector<PairCategory> pair_categories(const Problem& problem, const JointVec
   return all;
 }
 
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

@@ -7,7 +7,7 @@
 #include "bqsa/geometry/segment_test.hpp"
 #include "bqsa/problem.hpp"
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 
 struct PairCategory {
   int link = 0;      ///< number
@@ -18,4 +18,4 @@ struct PairCategory {
 /// By links, base to tip, then obstacles, these being where they are at the tick.
 std::vector<PairCategory> pair_categories(const Problem& problem, const JointVector& q, int tick);
 
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 namespace {
 
 std::unique_ptr<ReactiveMethod> prepared(const Problem& problem, const MethodSpec& spec) {
@@ -55,4 +55,4 @@ StepOutput single_step(const Problem& problem, const MethodSpec& spec, const Ste
   return output;
 }
 
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

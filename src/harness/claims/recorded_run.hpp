@@ -8,7 +8,7 @@
 #include "bqsa/method.hpp"
 #include "harness/method_spec.hpp"
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 
 struct RecordedTick {
   TickState state;
@@ -32,4 +32,4 @@ RecordedRun record_run(Problem problem, const MethodSpec& method);
 /// One tick of a method freshly prepared.
 StepOutput single_step(const Problem& problem, const MethodSpec& method, const StepInput& input);
 
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

@@ -9,7 +9,7 @@
 #include "harness/claims/experiment_arguments.hpp"
 #include "harness/claims/pose_categories.hpp"
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 namespace {
 
 constexpr double kMillimetre = 1e-3;
@@ -297,4 +297,4 @@ std::vector<Estimator> run_estimators() {
   };
 }
 
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

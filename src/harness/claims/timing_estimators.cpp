@@ -7,7 +7,7 @@
 #include "harness/claims/estimator_lists.hpp"
 #include "harness/claims/laboratory.hpp"
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 namespace {
 
 Figure figure_of(const char* name, const Estimate& estimate) {
@@ -224,4 +224,4 @@ std::vector<Estimator> timing_estimators() {
   };
 }
 
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

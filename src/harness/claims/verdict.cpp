@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 namespace {
 
 /// @param all   whether all of the interval satisfies the bound
@@ -69,4 +69,4 @@ const char* name_of(Outcome outcome) {
   return "";
 }
 
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

@@ -7,7 +7,7 @@
 
 #include "harness/claims/claim.hpp"
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 
 enum class Outcome { kHolds, kFails, kUndecided };
 
@@ -24,4 +24,4 @@ Verdict verdict_of(std::span<const Outcome> as_stated, std::span<const Outcome> 
 
 const char* name_of(Outcome outcome);
 
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

@@ -8,7 +8,7 @@
 #include "bqsa/geometry/paper_form.hpp"
 #include "bqsa/geometry/segment_test.hpp"
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 
 __extension__ typedef __int128 Whole;  // the alias form does not silence -Wpedantic
 
@@ -149,4 +149,4 @@ WholeEllipsoid<Dim> random_ellipsoid(std::mt19937_64& generator, int size) {
   return ellipsoid;
 }
 
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

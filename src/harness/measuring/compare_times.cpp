@@ -64,18 +64,18 @@ ComparedRow compare(const BenchmarkTimes& before, const BenchmarkTimes& after, d
                   .change = ratio_text(ratio),
                   .interval = "",
                   .p = "",
-                  .finding = Finding::kUndecided};
+                  .finding = ComparisonFinding::kUndecided};
   const bool repeated = before.seconds.size() > 1 && after.seconds.size() > 1;
   if (!repeated) {
-    row.differs = finding_of_ratio(ratio, {ratio, ratio}, settings) != Finding::kTie;
+    row.differs = finding_of_ratio(ratio, {ratio, ratio}, settings) != ComparisonFinding::kTie;
     return row;
   }
   const Interval interval = welch_interval(after.seconds, before.seconds, confidence);
   row.interval = interval_text(interval);
   row.p = p_text(mann_whitney(after.seconds, before.seconds).p);
-  const Finding finding = finding_of_ratio(ratio, interval, settings);
+  const ComparisonFinding finding = finding_of_ratio(ratio, interval, settings);
   if (comparable) row.finding = finding;
-  row.differs = finding != Finding::kTie;
+  row.differs = finding != ComparisonFinding::kTie;
   return row;
 }
 

@@ -9,6 +9,7 @@
 #include "harness/measuring/measurements.hpp"
 #include "harness/measuring/measurements_schema.hpp"
 #include "harness/measuring/run_sweep.hpp"
+#include "harness/results/provenance_json.hpp"
 
 namespace bqsa::harness {
 namespace {
@@ -25,8 +26,15 @@ std::string host_name() {
 Json context_json(const MeasurementOrigin& origin, std::size_t processes) {
   const BuildInfo& build = origin.build;
   const MachineState& machine = origin.before;
-  Json libraries = Json::object();
-  for (const auto& [name, version] : build.libraries) libraries[name] = version;
+  Json ours = {{"schema", kMeasurementsSchema},
+               {"publishable", origin.against.empty()},
+               {"against", origin.against},
+               {"effort", origin.effort},
+               {"processes", processes},
+               {"other_cores", origin.other_cores},
+               {"command_line", origin.command_line}};
+  ours.update(build_json(build));
+  ours.update(machine_json(machine));
   return {
       {"date", machine.date},
       {"host_name", host_name()},
@@ -37,26 +45,7 @@ Json context_json(const MeasurementOrigin& origin, std::size_t processes) {
       {"caches", Json::array()},
       {"load_avg", Json::array({machine.load})},
       {"library_build_type", build.assertions ? "debug" : "release"},
-      {"bqsa",
-       {{"schema", kMeasurementsSchema},
-        {"publishable", origin.against.empty()},
-        {"against", origin.against},
-        {"effort", origin.effort},
-        {"processes", processes},
-        {"other_cores", origin.other_cores},
-        {"version", build.version},
-        {"commit", build.commit},
-        {"dirty", build.dirty},
-        {"compiler", build.compiler},
-        {"build_type", build.build_type},
-        {"flags", build.flags},
-        {"assertions", build.assertions},
-        {"sanitizers", build.sanitizers},
-        {"libraries", libraries},
-        {"processor", machine.processor},
-        {"governor", machine.governor},
-        {"os", machine.os},
-        {"command_line", origin.command_line}}}};
+      {"bqsa", ours}};
 }
 
 /// `plane_nm/test_points/NM:600/nk:27`; steps have no test points in common.

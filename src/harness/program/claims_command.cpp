@@ -19,26 +19,27 @@ namespace {
 constexpr std::size_t kMaxBytes = std::size_t{1} << 22;
 
 /// The claims asked for and, where one of them rests on times, those that test the gate.
-std::vector<Claim> chosen_claims(const std::vector<Claim>& all,
-                                 const std::vector<std::string>& only) {
+std::vector<claims::Claim> chosen_claims(const std::vector<claims::Claim>& all,
+                                         const std::vector<std::string>& only) {
   if (only.empty()) return all;
   for (const std::string& id : only) {
-    const bool known =
-        std::any_of(all.begin(), all.end(), [&](const Claim& claim) { return claim.id == id; });
+    const bool known = std::any_of(all.begin(), all.end(),
+                                   [&](const claims::Claim& claim) { return claim.id == id; });
     if (known) continue;
     std::vector<std::string> ids;
     ids.reserve(all.size());
-    for (const Claim& claim : all) ids.push_back(claim.id);
+    for (const claims::Claim& claim : all) ids.push_back(claim.id);
     throw InputError(
         fmt::format("--only: expected one of {}, got {}", fmt::join(ids, ", "), excerpt(id)));
   }
-  const auto asked = [&](const Claim& claim) {
+  const auto asked = [&](const claims::Claim& claim) {
     return std::find(only.begin(), only.end(), claim.id) != only.end();
   };
-  const bool timing = std::any_of(
-      all.begin(), all.end(), [&](const Claim& claim) { return asked(claim) && claim.timing(); });
-  std::vector<Claim> chosen;
-  for (const Claim& claim : all) {
+  const bool timing = std::any_of(all.begin(), all.end(), [&](const claims::Claim& claim) {
+    return asked(claim) && claim.timing();
+  });
+  std::vector<claims::Claim> chosen;
+  for (const claims::Claim& claim : all) {
     if (asked(claim) || (timing && claim.gate)) chosen.push_back(claim);
   }
   return chosen;
@@ -60,23 +61,23 @@ Measurements measurements_of(const ClaimsOptions& options, const Console& consol
 void print_claims(const nlohmann::ordered_json& record, const std::vector<std::string>& only,
                   std::ostream& out) {
   if (only.empty()) {
-    out << claims_table(record);
+    out << claims::claims_table(record);
     return;
   }
   for (const auto& claim : record.at("claims")) {
     if (std::find(only.begin(), only.end(), claim.at("id")) != only.end()) {
-      out << claim_in_full(claim) << '\n';
+      out << claims::claim_in_full(claim) << '\n';
     }
   }
 }
 
 /// A line for each claim that no longer holds.
-void report_broken(const std::vector<EvaluatedClaim>& claims, const Console& console) {
-  for (const EvaluatedClaim& one : claims) {
-    if (one.standing != Standing::kBroken) continue;
+void report_broken(const std::vector<claims::EvaluatedClaim>& claims, const Console& console) {
+  for (const claims::EvaluatedClaim& one : claims) {
+    if (one.standing != claims::Standing::kBroken) continue;
     console.error(fmt::format("claim {} no longer holds: expected {}, found {} (see --only {})",
-                              one.claim->id, name_of(one.claim->expected), name_of(one.verdict),
-                              one.claim->id));
+                              one.claim->id, claims::name_of(one.claim->expected),
+                              claims::name_of(one.verdict), one.claim->id));
   }
 }
 
@@ -93,9 +94,9 @@ void make_directory(const fs::path& directory) {
 
 Status render_claims_command(const fs::path& result, const fs::path& into, const Console& console) {
   std::string table;
-  const nlohmann::ordered_json record = read_claims_record(result);
+  const nlohmann::ordered_json record = claims::read_claims_record(result);
   try {
-    table = claims_markdown(record);
+    table = claims::claims_markdown(record);
   } catch (const nlohmann::json::exception&) {
     throw InputError(
         fmt::format("{}: expected a complete evaluation of claims, got one with parts missing",
@@ -106,7 +107,7 @@ Status render_claims_command(const fs::path& result, const fs::path& into, const
     return kOk;
   }
   try {
-    write_text_file(into, with_claims_block(read_text_file(into, kMaxBytes), table));
+    write_text_file(into, claims::with_claims_block(read_text_file(into, kMaxBytes), table));
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", into.string(), error.what()));
   }
@@ -115,43 +116,44 @@ Status render_claims_command(const fs::path& result, const fs::path& into, const
 
 Status claims_command(const std::vector<MethodEntry>& methods, const ClaimsOptions& options,
                       const Console& console) {
-  const std::vector<Claim> all = load_claims(options.claims);
-  const std::vector<Claim> claims = chosen_claims(all, options.only);
+  const std::vector<claims::Claim> all = claims::load_claims(options.claims);
+  const std::vector<claims::Claim> claims = chosen_claims(all, options.only);
   if (!options.directory.empty()) make_directory(options.directory);
 
-  const bool timing =
-      std::any_of(claims.begin(), claims.end(), [](const Claim& claim) { return claim.timing(); });
-  EvaluationOrigin origin{.command_line = options.command_line,
-                          .claims_file = options.claims.string(),
-                          .full = options.full,
-                          .build = build_info(),
-                          .machine = machine_state(),
-                          .measured = {}};
+  const bool timing = std::any_of(claims.begin(), claims.end(),
+                                  [](const claims::Claim& claim) { return claim.timing(); });
+  claims::EvaluationOrigin origin{.command_line = options.command_line,
+                                  .claims_file = options.claims.string(),
+                                  .full = options.full,
+                                  .build = build_info(),
+                                  .machine = machine_state(),
+                                  .measured = {}};
   Measurements measurements;
-  TimesState times;
+  claims::TimesState times;
   if (timing) {
     measurements = measurements_of(options, console);
     origin.measured = measurements.origin;
     times.reasons_against = measurements.origin.against;
   }
 
-  Laboratory laboratory({.scenarios = options.scenarios, .full = options.full}, methods,
-                        measurements.sweeps);
+  claims::Laboratory laboratory({.scenarios = options.scenarios, .full = options.full}, methods,
+                                measurements.sweeps);
   constexpr const char* kClearLine = "\r\033[K";
-  const auto progress = [&](const Claim& claim) {
+  const auto progress = [&](const claims::Claim& claim) {
     if (console.terminal) console.err << kClearLine << claim.id << std::flush;
   };
-  const std::vector<EvaluatedClaim> evaluated = evaluate(claims, laboratory, times, progress);
+  const std::vector<claims::EvaluatedClaim> evaluated =
+      claims::evaluate(claims, laboratory, times, progress);
   if (console.terminal) console.err << kClearLine << std::flush;
 
-  const nlohmann::ordered_json record = claims_record(evaluated, origin);
+  const nlohmann::ordered_json record = claims::claims_record(evaluated, origin);
   if (!options.directory.empty()) {
     write_text_file(options.directory / "claims.json", record.dump(1) + "\n");
-    write_text_file(options.directory / "claims.md", claims_markdown(record));
+    write_text_file(options.directory / "claims.md", claims::claims_markdown(record));
   }
   print_claims(record, options.only, console.out);
   report_broken(evaluated, console);
-  return any_broken(evaluated) ? kRunFailed : kOk;
+  return claims::any_broken(evaluated) ? kRunFailed : kOk;
 }
 
 }  // namespace bqsa::harness

@@ -40,7 +40,7 @@ Status compare_command(const CompareOptions& options, const Console& console) {
                   : compare_times(read_benchmark_file(options.before),
                                   read_benchmark_file(options.after), settings);
   console.out << render_comparison(report, options.all);
-  return report.count(Finding::kWorse) > 0 ? kRunFailed : kOk;
+  return report.count(ComparisonFinding::kWorse) > 0 ? kRunFailed : kOk;
 }
 
 }  // namespace bqsa::harness

@@ -126,8 +126,8 @@ ComparedRow success_row(const MethodPairs& method, double alpha) {
                   .p = p_text(p),
                   .differs = lost + won > 0};
   const bool certain = !method.plans || p < alpha;
-  if (certain && lost > won) row.finding = Finding::kWorse;
-  if (certain && won > lost) row.finding = Finding::kBetter;
+  if (certain && lost > won) row.finding = ComparisonFinding::kWorse;
+  if (certain && won > lost) row.finding = ComparisonFinding::kBetter;
   return row;
 }
 
@@ -147,8 +147,8 @@ ComparedRow tip_error_row(const MethodPairs& method, double confidence) {
       .change = fmt::format("{:+.2g}", found.median),
       .interval = fmt::format("{:+.2g} .. {:+.2g}", found.interval.lower, found.interval.upper),
       .p = p_text(found.sign_test_p)};
-  if (found.interval.lower > kSameTipError / kMillimetre) row.finding = Finding::kWorse;
-  if (found.interval.upper < -kSameTipError / kMillimetre) row.finding = Finding::kBetter;
+  if (found.interval.lower > kSameTipError / kMillimetre) row.finding = ComparisonFinding::kWorse;
+  if (found.interval.upper < -kSameTipError / kMillimetre) row.finding = ComparisonFinding::kBetter;
   return row;
 }
 
@@ -188,8 +188,8 @@ void add_work_row(const MethodPairs& method, const WorkQuantity& work, double al
                   .p = p_text(found.sign_test_p),
                   .differs = before_sum != after_sum};
   const bool certain = !method.plans || found.sign_test_p < alpha;
-  if (certain && ratio > 1 + kSameWork) row.finding = Finding::kWorse;
-  if (certain && ratio < 1 / (1 + kSameWork)) row.finding = Finding::kBetter;
+  if (certain && ratio > 1 + kSameWork) row.finding = ComparisonFinding::kWorse;
+  if (certain && ratio < 1 / (1 + kSameWork)) row.finding = ComparisonFinding::kBetter;
   report.rows.push_back(std::move(row));
 }
 
@@ -200,7 +200,7 @@ ComparedRow time_row(const MethodPairs& method, const TimeQuantity& time, const 
       compare_pairs(logs.after, logs.before, {.confidence = confidence, .resamples = kResamples});
   const double ratio = std::exp(found.median);
   const Interval interval{std::exp(found.interval.lower), std::exp(found.interval.upper)};
-  const Finding finding = finding_of_ratio(ratio, interval, settings);
+  const ComparisonFinding finding = finding_of_ratio(ratio, interval, settings);
   const bool decided = comparable && logs.after.size() >= kFewestTimePairs;
   return {.subject = method.variant,
           .quantity = time.name,
@@ -209,8 +209,8 @@ ComparedRow time_row(const MethodPairs& method, const TimeQuantity& time, const 
           .change = ratio_text(ratio),
           .interval = interval_text(interval),
           .p = p_text(found.sign_test_p),
-          .finding = decided ? finding : Finding::kUndecided,
-          .differs = finding != Finding::kTie};
+          .finding = decided ? finding : ComparisonFinding::kUndecided,
+          .differs = finding != ComparisonFinding::kTie};
 }
 
 /// How many rows chance has a part in.

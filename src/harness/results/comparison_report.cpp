@@ -11,27 +11,28 @@
 namespace bqsa::harness {
 namespace {
 
-const char* name_of(Finding finding) {
+const char* name_of(ComparisonFinding finding) {
   switch (finding) {
-    case Finding::kTie:
+    case ComparisonFinding::kTie:
       return "tie";
-    case Finding::kBetter:
+    case ComparisonFinding::kBetter:
       return "better";
-    case Finding::kWorse:
+    case ComparisonFinding::kWorse:
       return "WORSE";
-    case Finding::kUndecided:
+    case ComparisonFinding::kUndecided:
       return "not decided";
   }
   return "?";
 }
 
 bool is_shown(const ComparedRow& row) {
-  return row.differs || row.finding == Finding::kBetter || row.finding == Finding::kWorse;
+  return row.differs || row.finding == ComparisonFinding::kBetter ||
+         row.finding == ComparisonFinding::kWorse;
 }
 
 }  // namespace
 
-int ComparisonReport::count(Finding finding) const {
+int ComparisonReport::count(ComparisonFinding finding) const {
   return static_cast<int>(
       std::count_if(rows.begin(), rows.end(),
                     [finding](const ComparedRow& row) { return row.finding == finding; }));
@@ -41,12 +42,12 @@ double confidence_of_each(std::size_t comparisons) {
   return 1 - (1 - kConfidence) / static_cast<double>(std::max<std::size_t>(comparisons, 1));
 }
 
-Finding finding_of_ratio(double ratio, const Interval& interval,
-                         const ComparisonSettings& settings) {
+ComparisonFinding finding_of_ratio(double ratio, const Interval& interval,
+                                   const ComparisonSettings& settings) {
   const double most = settings.time_threshold;
-  if (ratio > most && interval.lower > most) return Finding::kWorse;
-  if (ratio < 1 / most && interval.upper < 1 / most) return Finding::kBetter;
-  return Finding::kTie;
+  if (ratio > most && interval.lower > most) return ComparisonFinding::kWorse;
+  if (ratio < 1 / most && interval.upper < 1 / most) return ComparisonFinding::kBetter;
+  return ComparisonFinding::kTie;
 }
 
 std::string render_comparison(const ComparisonReport& report, bool all) {
@@ -67,11 +68,12 @@ std::string render_comparison(const ComparisonReport& report, bool all) {
   }
   std::string text = any ? table.text() + '\n' : "";
   for (const std::string& note : report.notes) text += note + '\n';
-  const int undecided = report.count(Finding::kUndecided);
-  text += fmt::format("{} compared: {} ties, {} better, {} worse{}\n", report.rows.size(),
-                      report.count(Finding::kTie), report.count(Finding::kBetter),
-                      report.count(Finding::kWorse),
-                      undecided > 0 ? fmt::format(", {} not decided", undecided) : "");
+  const int undecided = report.count(ComparisonFinding::kUndecided);
+  text +=
+      fmt::format("{} compared: {} ties, {} better, {} worse{}\n", report.rows.size(),
+                  report.count(ComparisonFinding::kTie), report.count(ComparisonFinding::kBetter),
+                  report.count(ComparisonFinding::kWorse),
+                  undecided > 0 ? fmt::format(", {} not decided", undecided) : "");
   return text;
 }
 

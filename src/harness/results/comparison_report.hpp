@@ -9,7 +9,7 @@
 
 namespace bqsa::harness {
 
-enum class Finding {
+enum class ComparisonFinding {
   kTie,
   kBetter,
   kWorse,      ///< a regression
@@ -25,7 +25,7 @@ struct ComparedRow {
   std::string change;    ///< `x 1.23`, `1 lost, 0 won`
   std::string interval;  ///< of the change
   std::string p;         ///< that so much comes by chance
-  Finding finding = Finding::kTie;
+  ComparisonFinding finding = ComparisonFinding::kTie;
   bool differs = false;  ///< shown even if nothing was found
 };
 
@@ -33,7 +33,7 @@ struct ComparisonReport {
   std::vector<ComparedRow> rows;
   std::vector<std::string> notes;  ///< a line each
 
-  int count(Finding finding) const;
+  int count(ComparisonFinding finding) const;
 };
 
 struct ComparisonSettings {
@@ -47,8 +47,8 @@ struct ComparisonSettings {
 double confidence_of_each(std::size_t comparisons);
 
 /// By a ratio of times and its interval.
-Finding finding_of_ratio(double ratio, const Interval& interval,
-                         const ComparisonSettings& settings);
+ComparisonFinding finding_of_ratio(double ratio, const Interval& interval,
+                                   const ComparisonSettings& settings);
 
 /// Plain text: rows of what differs, or all, the notes, and a line of counts.
 std::string render_comparison(const ComparisonReport& report, bool all);

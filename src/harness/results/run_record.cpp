@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "harness/results/provenance_json.hpp"
+
 namespace bqsa::harness {
 namespace {
 
@@ -177,32 +179,17 @@ Json times_json(const RunTimes& times, bool success, bool external, const Machin
 
 Json provenance_json(const MethodEntry& method, const MachineState& machine,
                      const Circumstances& circumstances) {
-  const BuildInfo& build = build_info();
-  Json libraries = Json::object();
-  for (const auto& [name, version] : build.libraries) libraries[name] = version;
-  return {{"version", build.version},
-          {"commit", build.commit},
-          {"dirty", build.dirty},
-          {"compiler", build.compiler},
-          {"build_type", build.build_type},
-          {"flags", build.flags},
-          {"assertions", build.assertions},
-          {"sanitizers", build.sanitizers},
-          {"libraries", libraries},
-          {"processor", machine.processor},
-          {"cores", machine.cores},
-          {"governor", machine.governor},
-          {"load_average", machine.load},
-          {"os", machine.os},
-          {"date", machine.date},
-          {"seed", circumstances.settings.seed},
-          {"plan_budget_s", circumstances.settings.plan_budget_s},
-          {"isolated", !circumstances.in_process},
-          {"wall_limit_s", circumstances.limits.wall_s},
-          {"memory_limit_bytes", circumstances.limits.memory_bytes},
-          {"command_line", circumstances.command_line},
-          {"out_of_tree", circumstances.out_of_tree},
-          {"external", method.external.empty() ? Json() : Json(method.external)}};
+  Json provenance = build_json(build_info());
+  provenance.update(machine_json(machine));
+  provenance.update(Json{{"seed", circumstances.settings.seed},
+                         {"plan_budget_s", circumstances.settings.plan_budget_s},
+                         {"isolated", !circumstances.in_process},
+                         {"wall_limit_s", circumstances.limits.wall_s},
+                         {"memory_limit_bytes", circumstances.limits.memory_bytes},
+                         {"command_line", circumstances.command_line},
+                         {"out_of_tree", circumstances.out_of_tree},
+                         {"external", method.external.empty() ? Json() : Json(method.external)}});
+  return provenance;
 }
 
 Json disturbance_json(const Disturbance& disturbance) {

@@ -6,7 +6,7 @@
 
 #include "harness/program/program_runner.hpp"
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 namespace {
 
 using testing::HasSubstr;
@@ -93,4 +93,4 @@ TEST(ClaimsCommand, WritesARecordFromWhichTheTableIsMade) {
 }
 
 }  // namespace
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

@@ -7,7 +7,7 @@
 
 #include "harness/scenario/scenario_files.hpp"
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 namespace {
 
 constexpr const char* kGood = R"(schema: bqsa-claims/1
@@ -170,4 +170,4 @@ TEST(ClaimsFile, IsRefusedWithLineKeyExpectedAndFound) {
 }
 
 }  // namespace
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

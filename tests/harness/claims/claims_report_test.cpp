@@ -12,7 +12,7 @@
 #include "harness/scenario/scenario_files.hpp"
 #include "harness/text_file.hpp"
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 namespace {
 
 using testing::HasSubstr;
@@ -92,4 +92,4 @@ TEST(ClaimsReport, OfTheReadmeIsThatOfTheReferenceResult) {
 }
 
 }  // namespace
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

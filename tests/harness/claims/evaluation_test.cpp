@@ -9,7 +9,7 @@
 #include "harness/scenario/scenario_files.hpp"
 #include "synthetic_sweeps.hpp"
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 namespace {
 
 constexpr double kNano = 1e-9;
@@ -170,4 +170,4 @@ TEST(Evaluation, NamesTheClaimOfAnArgumentThatMeansNothing) {
 }
 
 }  // namespace
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

@@ -6,7 +6,7 @@
 #include "harness/methods.hpp"
 #include "harness/runner.hpp"
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 namespace {
 
 class RunEstimators : public testing::Test {
@@ -147,4 +147,4 @@ TEST_F(RunEstimators, RefuseWhatTheyCannotRun) {
 }
 
 }  // namespace
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

@@ -9,7 +9,7 @@
 
 #include "harness/measuring/sweep.hpp"
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 
 /// A series' name and its time at a point of the axis [s].
 using KnownTime = std::pair<std::string, std::function<double(double)>>;
@@ -45,4 +45,4 @@ inline Sweep synthetic_gate(double again, double half_more, double jitter = 1e-3
                          jitter);
 }
 
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

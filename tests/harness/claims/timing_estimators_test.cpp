@@ -8,7 +8,7 @@
 #include "harness/methods.hpp"
 #include "synthetic_sweeps.hpp"
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 namespace {
 
 constexpr double kNano = 1e-9;
@@ -139,4 +139,4 @@ TEST(TimingEstimators, FindNothingWhereNothingWasMeasured) {
 }
 
 }  // namespace
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -131,4 +131,4 @@ TEST(Verdict, FollowsTheRuleForAllListsOfUpToThreeOutcomes) {
 }
 
 }  // namespace
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

@@ -12,7 +12,7 @@
 #include "harness/methods.hpp"
 #include "support/exact_segment_test.hpp"
 
-namespace bqsa::harness {
+namespace bqsa::harness::claims {
 namespace {
 
 template <int Dim>
@@ -156,4 +156,4 @@ TEST(Counts, AreThoseThatTheDetectorsDeclare) {
 }
 
 }  // namespace
-}  // namespace bqsa::harness
+}  // namespace bqsa::harness::claims

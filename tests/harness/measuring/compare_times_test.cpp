@@ -20,8 +20,8 @@ BenchmarkFile file_with(const std::vector<BenchmarkTimes>& benchmarks) {
   return {.benchmarks = benchmarks, .machine = "m", .compiler = "c", .against = {}};
 }
 
-Finding only_finding(const std::vector<double>& before, const std::vector<double>& after,
-                     double threshold = 1.10) {
+ComparisonFinding only_finding(const std::vector<double>& before, const std::vector<double>& after,
+                               double threshold = 1.10) {
   return compare_times(file_with({{"a", before}}), file_with({{"a", after}}),
                        {.time_threshold = threshold})
       .rows.at(0)
@@ -36,13 +36,15 @@ std::vector<double> times(double factor, const std::vector<double>& seconds = kS
 }
 
 TEST(CompareTimes, FindsWhatIsBeyondTheThreshold) {
-  EXPECT_EQ(only_finding(kSteady, kSteady), Finding::kTie);
-  EXPECT_EQ(only_finding(kSteady, times(1.08)), Finding::kTie);  // certain, but too little
-  EXPECT_EQ(only_finding(kSteady, times(1.2)), Finding::kWorse);
-  EXPECT_EQ(only_finding(kSteady, times(1 / 1.2)), Finding::kBetter);
-  EXPECT_EQ(only_finding(kSteady, times(1.2), 1.3), Finding::kTie);
-  EXPECT_EQ(only_finding({1, 2, 3}, {2, 3, 1.5}), Finding::kTie);  // enough, but uncertain
-  EXPECT_EQ(only_finding({1.0}, {3.0}), Finding::kUndecided);
+  EXPECT_EQ(only_finding(kSteady, kSteady), ComparisonFinding::kTie);
+  EXPECT_EQ(only_finding(kSteady, times(1.08)),
+            ComparisonFinding::kTie);  // certain, but too little
+  EXPECT_EQ(only_finding(kSteady, times(1.2)), ComparisonFinding::kWorse);
+  EXPECT_EQ(only_finding(kSteady, times(1 / 1.2)), ComparisonFinding::kBetter);
+  EXPECT_EQ(only_finding(kSteady, times(1.2), 1.3), ComparisonFinding::kTie);
+  EXPECT_EQ(only_finding({1, 2, 3}, {2, 3, 1.5}),
+            ComparisonFinding::kTie);  // enough, but uncertain
+  EXPECT_EQ(only_finding({1.0}, {3.0}), ComparisonFinding::kUndecided);
 }
 
 /// By hand: logarithms 0, 0.02 and 0.3, 0.34: means 0.01, 0.32, variances of the means 1e-4, 4e-4;
@@ -55,7 +57,7 @@ TEST(CompareTimes, HasWelchsInterval) {
   EXPECT_EQ(row.change, "x 1.364");  // of the medians
   EXPECT_EQ(row.interval, "1.187 .. 1.566");
   EXPECT_EQ(row.p, "0.333");  // of the six orders two are as extreme
-  EXPECT_EQ(row.finding, Finding::kWorse);
+  EXPECT_EQ(row.finding, ComparisonFinding::kWorse);
 }
 
 /// 200 benchmarks, five repetitions with 10 % noise: without a guard against their number some would be
@@ -78,7 +80,8 @@ TEST(CompareTimes, DoNotCallChanceAmongManyAFinding) {
       return file_with(benchmarks);
     };
     const ComparisonReport report = compare_times(draw(), draw(), {.time_threshold = 1.0001});
-    if (report.count(Finding::kWorse) + report.count(Finding::kBetter) > 0) ++found;
+    if (report.count(ComparisonFinding::kWorse) + report.count(ComparisonFinding::kBetter) > 0)
+      ++found;
   }
   EXPECT_LE(found, 6);  // 5 % of 40 are 2, standard deviation 1.4
 }
@@ -86,16 +89,16 @@ TEST(CompareTimes, DoNotCallChanceAmongManyAFinding) {
 TEST(CompareTimes, OfOtherMachinesOrIndicativeOnesDecideNothing) {
   const BenchmarkFile before = file_with({{"a", kSteady}});
   BenchmarkFile after = file_with({{"a", times(2)}});
-  EXPECT_EQ(compare_times(before, after).count(Finding::kWorse), 1);
+  EXPECT_EQ(compare_times(before, after).count(ComparisonFinding::kWorse), 1);
   after.machine = "another";
   ComparisonReport report = compare_times(before, after);
-  EXPECT_EQ(report.count(Finding::kUndecided), 1);
+  EXPECT_EQ(report.count(ComparisonFinding::kUndecided), 1);
   EXPECT_TRUE(report.rows[0].differs);
   EXPECT_THAT(report.notes, testing::Contains(HasSubstr("machines differ: m and another")));
   after = file_with({{"a", times(2)}});
   after.against = {"assertions on"};
   report = compare_times(before, after);
-  EXPECT_EQ(report.count(Finding::kUndecided), 1);
+  EXPECT_EQ(report.count(ComparisonFinding::kUndecided), 1);
   EXPECT_THAT(report.notes, testing::Contains(HasSubstr("assertions on")));
 }
 
