@@ -6,7 +6,7 @@
 
 #include "harness/generator/generator.hpp"
 #include "harness/method_spec.hpp"
-#include "harness/scratch_directory.hpp"
+#include "harness/temporary_directory.hpp"
 #include "harness/text_file.hpp"
 
 namespace bqsa::harness::claims {
@@ -57,7 +57,7 @@ const Problem& Laboratory::generated(const std::string& family, std::uint64_t se
   const std::string key = fmt::format("{} {} {}", family, seed, index);
   const auto found = generated_.find(key);
   if (found != generated_.end()) return found->second;
-  const ScratchDirectory directory;
+  const TemporaryDirectory directory;
   const std::filesystem::path file = directory.path() / "problem.yaml";
   Rejections rejections;
   write_text_file(file, generate(planar_family(family), seed, index, {}, rejections).yaml);

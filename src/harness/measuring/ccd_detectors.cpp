@@ -5,7 +5,6 @@
 
 #include <Eigen/Core>
 #include <cassert>
-#include <limits>
 
 #include "harness/measuring/detector_lists.hpp"
 
@@ -101,29 +100,20 @@ class CcdDetection final : public Detection {
 };
 
 template <int (*Intersect)(const void*, const void*, const ccd_t*)>
-Detector entry(std::string_view name, std::string_view label, std::string_view what) {
-  return {.name = name,
-          .label = label,
-          .what = what,
-          .accuracy = Accuracy::kLibrary,
-          .in_plane = true,
-          .in_space = true,
-          .multiplications =
-              [](const WorkloadSize&) { return std::numeric_limits<double>::quiet_NaN(); },
-          .prepare = [](const Workload& workload) -> std::unique_ptr<Detection> {
-            return std::make_unique<CcdDetection<Intersect>>(workload);
-          }};
+std::unique_ptr<Detection> prepare(const Workload& workload) {
+  return std::make_unique<CcdDetection<Intersect>>(workload);
 }
 
 }  // namespace
 
 std::vector<Detector> ccd_detectors() {
-  return {
-      entry<ccdGJKIntersect>("ccd_gjk", "libccd GJK",
-                             "libccd's GJK called directly, with support functions of segment and "
-                             "ellipsoid"),
-      entry<ccdMPRIntersect>("ccd_mpr", "libccd MPR",
-                             "libccd's portal refinement (MPR) called directly, likewise")};
+  return {library_detector("ccd_gjk", "libccd GJK",
+                           "libccd's GJK called directly, with support functions of segment and "
+                           "ellipsoid",
+                           prepare<ccdGJKIntersect>),
+          library_detector("ccd_mpr", "libccd MPR",
+                           "libccd's portal refinement (MPR) called directly, likewise",
+                           prepare<ccdMPRIntersect>)};
 }
 
 }  // namespace bqsa::harness

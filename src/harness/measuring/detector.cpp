@@ -3,10 +3,26 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <limits>
+
 #include "harness/input_error.hpp"
 #include "harness/measuring/detector_lists.hpp"
 
 namespace bqsa::harness {
+
+double not_counted(const WorkloadSize&) { return std::numeric_limits<double>::quiet_NaN(); }
+
+Detector library_detector(std::string_view name, std::string_view label, std::string_view what,
+                          std::unique_ptr<Detection> (*prepare)(const Workload&)) {
+  return {.name = name,
+          .label = label,
+          .what = what,
+          .accuracy = Accuracy::kLibrary,
+          .in_plane = true,
+          .in_space = true,
+          .multiplications = not_counted,
+          .prepare = prepare};
+}
 
 std::span<const Detector> detectors() {
   static const std::vector<Detector> kDetectors = [] {

@@ -2,6 +2,8 @@
 /// The detectors, file by file; `detectors()` puts them in one row.
 #pragma once
 
+#include <memory>
+#include <string_view>
 #include <vector>
 
 #include "harness/measuring/detector.hpp"
@@ -13,5 +15,12 @@ std::vector<Detector> test_point_detectors();
 std::vector<Detector> exact_distance_detectors();
 std::vector<Detector> fcl_detectors();
 std::vector<Detector> ccd_detectors();
+
+/// `Detector::multiplications` of what nobody counts: not a number.
+double not_counted(const WorkloadSize& size);
+
+/// A library's query, in the plane and in space.
+Detector library_detector(std::string_view name, std::string_view label, std::string_view what,
+                          std::unique_ptr<Detection> (*prepare)(const Workload&));
 
 }  // namespace bqsa::harness

@@ -1,7 +1,6 @@
 // The analytic rival that needs no test points either.
 
 #include <cassert>
-#include <limits>
 
 #include "baselines/closest/segment_ellipsoid_distance.hpp"
 #include "harness/measuring/detector_lists.hpp"
@@ -41,8 +40,7 @@ std::vector<Detector> exact_distance_detectors() {
        .accuracy = Accuracy::kExact,
        .in_plane = true,
        .in_space = true,
-       .multiplications =
-           [](const WorkloadSize&) { return std::numeric_limits<double>::quiet_NaN(); },
+       .multiplications = not_counted,
        .prepare = [](const Workload& workload) -> std::unique_ptr<Detection> {
          return std::make_unique<ExactDistanceDetection>(workload);
        }}};

@@ -201,43 +201,31 @@ std::unique_ptr<bqsa::harness::Detection> prepare(const Workload& workload) {
   return std::make_unique<Detection>(workload, Solver);
 }
 
-Detector entry(std::string_view name, std::string_view label, std::string_view what,
-               std::unique_ptr<Detection> (*prepare)(const Workload&)) {
-  return {.name = name,
-          .label = label,
-          .what = what,
-          .accuracy = Accuracy::kLibrary,
-          .in_plane = true,
-          .in_space = true,
-          .multiplications =
-              [](const WorkloadSize&) { return std::numeric_limits<double>::quiet_NaN(); },
-          .prepare = prepare};
-}
-
 }  // namespace
 
 std::vector<Detector> fcl_detectors() {
   using fcl::GST_INDEP;
   using fcl::GST_LIBCCD;
   return {
-      entry("fcl_collide_libccd", "FCL collide, libccd",
-            "fcl::collide of every pair by libccd's GJK, contacts off",
-            prepare<PairwiseDetection<CollideQuery>, GST_LIBCCD>),
-      entry("fcl_collide_indep", "FCL collide, own GJK",
-            "fcl::collide of every pair by FCL's own GJK, contacts off",
-            prepare<PairwiseDetection<CollideQuery>, GST_INDEP>),
-      entry("fcl_collide_broadphase", "FCL collide, broadphase",
-            "fcl::collide by libccd's GJK of the pairs that FCL's tree of boxes leaves",
-            prepare<BroadphaseDetection<CollideQuery>, GST_LIBCCD>),
-      entry("fcl_distance_libccd", "FCL distance, libccd",
-            "fcl::distance of every pair by libccd, as shipped",
-            prepare<PairwiseDetection<DistanceQuery>, GST_LIBCCD>),
-      entry("fcl_distance_indep", "FCL distance, own GJK",
-            "fcl::distance of every pair by FCL's own GJK to 1e-9 mm",
-            prepare<PairwiseDetection<DistanceQuery>, GST_INDEP>),
-      entry("fcl_distance_broadphase", "FCL distance, broadphase",
-            "fcl::distance by FCL's own GJK of the pairs that FCL's tree of boxes leaves",
-            prepare<BroadphaseDetection<DistanceQuery>, GST_INDEP>),
+      library_detector("fcl_collide_libccd", "FCL collide, libccd",
+                       "fcl::collide of every pair by libccd's GJK, contacts off",
+                       prepare<PairwiseDetection<CollideQuery>, GST_LIBCCD>),
+      library_detector("fcl_collide_indep", "FCL collide, own GJK",
+                       "fcl::collide of every pair by FCL's own GJK, contacts off",
+                       prepare<PairwiseDetection<CollideQuery>, GST_INDEP>),
+      library_detector("fcl_collide_broadphase", "FCL collide, broadphase",
+                       "fcl::collide by libccd's GJK of the pairs that FCL's tree of boxes leaves",
+                       prepare<BroadphaseDetection<CollideQuery>, GST_LIBCCD>),
+      library_detector("fcl_distance_libccd", "FCL distance, libccd",
+                       "fcl::distance of every pair by libccd, as shipped",
+                       prepare<PairwiseDetection<DistanceQuery>, GST_LIBCCD>),
+      library_detector("fcl_distance_indep", "FCL distance, own GJK",
+                       "fcl::distance of every pair by FCL's own GJK to 1e-9 mm",
+                       prepare<PairwiseDetection<DistanceQuery>, GST_INDEP>),
+      library_detector(
+          "fcl_distance_broadphase", "FCL distance, broadphase",
+          "fcl::distance by FCL's own GJK of the pairs that FCL's tree of boxes leaves",
+          prepare<BroadphaseDetection<DistanceQuery>, GST_INDEP>),
   };
 }
 

@@ -11,7 +11,7 @@
 #include <system_error>
 
 #include "harness/measuring/measurements.hpp"
-#include "harness/scratch_directory.hpp"
+#include "harness/temporary_directory.hpp"
 
 namespace bqsa::harness {
 namespace {
@@ -40,7 +40,7 @@ std::string fault_of(std::vector<std::string> words) {
 }  // namespace
 
 std::vector<Sweep> measure_processes(const std::vector<std::string>& command, int processes) {
-  const ScratchDirectory scratch;
+  const TemporaryDirectory scratch;
   std::vector<std::vector<Sweep>> measured;
   for (int process = 1; process <= processes; ++process) {
     const std::filesystem::path file = scratch.path() / fmt::format("{}.json", process);

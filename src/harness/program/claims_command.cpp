@@ -9,7 +9,7 @@
 #include "harness/claims/claims_record.hpp"
 #include "harness/claims/claims_report.hpp"
 #include "harness/program/commands.hpp"
-#include "harness/scratch_directory.hpp"
+#include "harness/temporary_directory.hpp"
 #include "harness/text_file.hpp"
 
 namespace bqsa::harness {
@@ -48,7 +48,7 @@ std::vector<claims::Claim> chosen_claims(const std::vector<claims::Claim>& all,
 /// From the file given, else measured now; kept in --out if there is one.
 Measurements measurements_of(const ClaimsOptions& options, const Console& console) {
   if (!options.measurements.empty()) return read_measurements(options.measurements);
-  const ScratchDirectory scratch;
+  const TemporaryDirectory scratch;
   const fs::path file =
       (options.directory.empty() ? scratch.path() : options.directory) / "measurements.json";
   std::ostringstream unseen;

@@ -13,7 +13,7 @@
 
 #include "harness/external/external_method.hpp"
 #include "harness/judge/judge.hpp"
-#include "harness/program/temporary_directory.hpp"
+#include "harness/temporary_directory.hpp"
 #include "harness/program/test_methods.hpp"
 #include "harness/results/pair_run.hpp"
 #include "harness/results/table_row.hpp"

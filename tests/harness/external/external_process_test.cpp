@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "harness/program/temporary_directory.hpp"
+#include "harness/temporary_directory.hpp"
 #include "running_process.hpp"
 
 namespace bqsa::harness {

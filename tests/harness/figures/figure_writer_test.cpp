@@ -10,7 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "../program/temporary_directory.hpp"
+#include "harness/temporary_directory.hpp"
 #include "harness/figures/gnuplot.hpp"
 
 namespace bqsa::harness {

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "../program/temporary_directory.hpp"
+#include "harness/temporary_directory.hpp"
 #include "figure_data.hpp"
 #include "harness/figures/figure_writer.hpp"
 #include "harness/figures/gnuplot.hpp"

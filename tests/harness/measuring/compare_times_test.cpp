@@ -7,7 +7,7 @@
 
 #include "harness/generator/random_stream.hpp"
 #include "harness/input_error.hpp"
-#include "harness/program/temporary_directory.hpp"
+#include "harness/temporary_directory.hpp"
 #include "harness/text_file.hpp"
 
 namespace bqsa::harness {

@@ -7,7 +7,7 @@
 
 #include "harness/input_error.hpp"
 #include "harness/measuring/measurements.hpp"
-#include "harness/program/temporary_directory.hpp"
+#include "harness/temporary_directory.hpp"
 #include "harness/text_file.hpp"
 
 namespace bqsa::harness {

@@ -10,7 +10,7 @@
 
 #include "harness/input_error.hpp"
 #include "harness/measuring/benchmark_file.hpp"
-#include "harness/program/temporary_directory.hpp"
+#include "harness/temporary_directory.hpp"
 #include "harness/text_file.hpp"
 
 namespace bqsa::harness {

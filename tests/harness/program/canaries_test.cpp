@@ -20,7 +20,7 @@
 #include "harness/methods.hpp"
 #include "harness/results/pair_run.hpp"
 #include "harness/results/table_row.hpp"
-#include "temporary_directory.hpp"
+#include "harness/temporary_directory.hpp"
 #include "test_methods.hpp"
 
 namespace bqsa::harness {

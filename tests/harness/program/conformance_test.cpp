@@ -21,7 +21,7 @@
 #include "harness/methods.hpp"
 #include "harness/scenario/scenario.hpp"
 #include "support/allocation_guard.hpp"
-#include "temporary_directory.hpp"
+#include "harness/temporary_directory.hpp"
 
 namespace {
 

@@ -15,7 +15,7 @@
 #include "harness/methods.hpp"
 #include "harness/results/table_row.hpp"
 #include "harness/trajectory_csv.hpp"
-#include "temporary_directory.hpp"
+#include "harness/temporary_directory.hpp"
 #include "test_methods.hpp"
 
 namespace bqsa::harness {

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "temporary_directory.hpp"
+#include "harness/temporary_directory.hpp"
 
 namespace bqsa::harness {
 

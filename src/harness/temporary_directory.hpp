@@ -1,20 +1,24 @@
 /// @file
-/// A directory that lives as long as a test.
+/// A place for files that nobody keeps.
 #pragma once
 
-#include <stdlib.h>
-
+#include <cstdlib>
 #include <filesystem>
-#include <stdexcept>
 #include <string>
+#include <system_error>
+
+#include "harness/input_error.hpp"
 
 namespace bqsa::harness {
 
+/// A directory that is gone with the object.
 class TemporaryDirectory {
  public:
   TemporaryDirectory() {
     std::string name = (std::filesystem::temp_directory_path() / "bqsa-bench-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make " + name);
+    if (mkdtemp(name.data()) == nullptr) {
+      throw InputError(name + ": expected a directory that can be made, got one that cannot");
+    }
     path_ = name;
   }
   ~TemporaryDirectory() {

@@ -1,0 +1,230 @@
+#include "harness/program/declare_commands.hpp"
+
+#include <limits>
+
+namespace bqsa::harness {
+namespace {
+
+constexpr int kMostGenerated = 100'000;  // the index in a name has five digits
+constexpr double kMostNoise = 1;         // [rad]
+constexpr int kMostSeeds = 10'000;
+constexpr double kMostSeconds = 1e6;
+constexpr int kMostMebibytes = 1 << 24;
+
+void add_external_option(CLI::App& command, std::vector<std::string>& externals) {
+  command
+      .add_option("--external", externals,
+                  "A program as method, NAME=COMMAND, as \"mine=python3 mine.py\"; repeatable\n"
+                  "(docs/external-methods.md)")
+      ->allow_extra_args(false);
+}
+
+void add_report_options(CLI::App& command, ReportOptions& report) {
+  CLI::Option* summary =
+      command.add_flag("--summary", report.summary,
+                       "Print rates, causes of failure and times by family instead of the table\n"
+                       "[from 13 scenarios on]");
+  command.add_flag("--table", report.table, "Print the table [up to 12 scenarios]")
+      ->excludes(summary);
+  command.add_flag("--failures", report.failures, "List every failed run too");
+}
+
+void declare_list(CLI::App& app, CommandLine& line) {
+  CLI::App* list =
+      add_command(app, "list", "List methods with their parameters, families, scenarios");
+  list->add_option("--scenarios", line.scenario_directory,
+                   "Directory of scenario files [./scenarios]");
+  add_external_option(*list, line.externals);
+  list->callback([&line] {
+    line.command = [&line](const Console& console) {
+      return list_command(line.known(), line.scenario_directory, console);
+    };
+  });
+}
+
+void declare_run(CLI::App& app, CommandLine& line) {
+  CLI::App* run = add_command(app, "run", "Run methods on scenarios, judge them, print the table");
+  run->add_option("SCENARIO", line.run.scenarios,
+                  "Scenario files, or directories with files *.yaml")
+      ->required();
+  run->add_option("--method,-m", line.run.methods,
+                  "Method with parameters, M[:key=value,...], as bqsa:increment=1e-3; see list;\n"
+                  "repeatable [all methods]")
+      ->allow_extra_args(false);
+  add_external_option(*run, line.externals);
+  run->add_option("--out,-o", line.run.directory,
+                  "Results directory; runs are added to an existing one, and the last of a\n"
+                  "scenario and method counts, in the table and as trajectory")
+      ->required();
+  run->add_flag("--strict", line.run.strict, "Exit with 1 if a run is not judged a success");
+  run->add_flag("--quiet,-q", line.run.quiet, "Print neither progress nor table");
+  run->add_flag("!--no-trajectories", line.run.trajectories, "Do not store the trajectories");
+  run->add_option("--joint-noise", line.run.joint_noise,
+                  "Standard deviation of normal noise on the joint angles that reactive methods\n"
+                  "are told [rad] [none]")
+      ->check(CLI::Range(0.0, kMostNoise));
+  run->add_flag("--latency", line.run.latency,
+                "Tell reactive methods the joint angles of one tick ago");
+  run->add_option("--seed", line.run.seed, "Seed of the noise and of planning methods [1]")
+      ->check(CLI::NonNegativeNumber);
+  run->add_option(
+         "--seeds", line.run.seeds,
+         "Run planning methods so many times, with --seed and the seeds that follow it [1]")
+      ->check(CLI::Range(1, kMostSeeds));
+  run->add_option("--plan-budget", line.run.plan_budget,
+                  "Wall time that planning methods may use for a plan [s] [10]")
+      ->check(CLI::Range(1e-3, kMostSeconds));
+  run->add_option("--time-limit", line.run.time_limit,
+                  "Wall time after which a run is stopped [s] [120]")
+      ->check(CLI::Range(1e-2, kMostSeconds));
+  run->add_option("--memory-limit", line.run.memory_limit,
+                  "Memory that a run may have beyond the program's own [MiB] [4096]")
+      ->check(CLI::Range(1, kMostMebibytes));
+  run->add_flag("--in-process", line.run.in_process,
+                "Run methods in this process, without limits, for a profiler or debugger");
+  add_report_options(*run, line.run.report);
+  run->callback([&line] {
+    line.command = [&line](const Console& console) {
+      return run_command(line.known(), line.run, console);
+    };
+  });
+}
+
+void declare_show(CLI::App& app, CommandLine& line) {
+  CLI::App* show = add_command(app, "show", "Print the table of a results directory");
+  show->add_option("DIR", line.results_directory, "Results directory")->required();
+  add_report_options(*show, line.report);
+  show->callback([&line] {
+    line.command = [&line](const Console& console) {
+      return show_command(line.results_directory, line.report, console);
+    };
+  });
+}
+
+void declare_step(CLI::App& app, CommandLine& line) {
+  CLI::App* step =
+      add_command(app, "step", "Repeat one tick of a method: what it does, how long it takes");
+  step->add_option("SCENARIO", line.step.scenario, "Scenario file")->required();
+  step->add_option("--method,-m", line.step.method, "Method with parameters, as for run")
+      ->required();
+  add_external_option(*step, line.externals);
+  CLI::Option* slowest = step->add_option(
+      "--slowest", line.step.slowest,
+      "Results directory: the slowest tick of this scenario and method, undisturbed");
+  CLI::Option* tick = step->add_option("--tick", line.step.tick, "Tick, from 1")
+                          ->check(CLI::Range(1, std::numeric_limits<int>::max()));
+  CLI::Option* state = step->add_option(
+      "--state", line.step.state,
+      "Joint angles before that tick: q1,...,qn [rad], or a trajectory file that has them");
+  tick->needs(state)->excludes(slowest);
+  state->needs(tick)->excludes(slowest);
+  step->callback([&line] {
+    line.command = [&line](const Console& console) {
+      return step_command(line.known(), line.step, console);
+    };
+  });
+}
+
+void declare_conform(CLI::App& app, CommandLine& line) {
+  CLI::App* conform =
+      add_command(app, "conform", "Check what the contract asks of every method, law by law");
+  conform
+      ->add_option("SCENARIO", line.conform.scenarios,
+                   "Scenario files, or directories with files *.yaml")
+      ->required();
+  conform
+      ->add_option("--method,-m", line.conform.methods,
+                   "Method with parameters, as for run; repeatable")
+      ->required()
+      ->allow_extra_args(false);
+  add_external_option(*conform, line.externals);
+  conform
+      ->add_option("--plan-budget", line.conform.plan_budget,
+                   "Wall time that planning methods may use for a plan [s] [10]")
+      ->check(CLI::Range(1e-3, kMostSeconds));
+  conform->callback([&line] {
+    line.command = [&line](const Console& console) {
+      return conform_command(line.known(), line.conform, console);
+    };
+  });
+}
+
+void declare_judge(CLI::App& app, CommandLine& line) {
+  CLI::App* judge = add_command(app, "judge", "Judge any trajectory of a scenario");
+  judge->add_option("SCENARIO", line.scenario, "Scenario file")->required();
+  judge
+      ->add_option("TRAJECTORY", line.trajectory,
+                   "CSV file t,q1..qn [s, rad], one row for each of the ticks and the start")
+      ->required();
+  judge->add_flag("--strict", line.strict, "Exit with 1 if it is not a success [0 all the same]");
+  judge->callback([&line] {
+    line.command = [&line](const Console& console) {
+      return judge_command(line.scenario, line.trajectory, line.strict, console);
+    };
+  });
+}
+
+void declare_generate(CLI::App& app, CommandLine& line) {
+  CLI::App* generate =
+      add_command(app, "generate", "Write random scenarios of a family (docs/generator.md)");
+  generate->add_option("--family", line.generate.family, "Family of scenarios, see list")
+      ->required();
+  generate->add_option("--count", line.generate.count, "Number of scenarios, at most 100000")
+      ->required()
+      ->check(CLI::Range(1, kMostGenerated));
+  generate->add_option("--seed", line.generate.seed, "Seed; file k is the same for every count")
+      ->required()
+      ->check(CLI::NonNegativeNumber);
+  generate
+      ->add_option("--out,-o", line.generate.directory,
+                   "Directory for the files; other content in it is not overwritten")
+      ->required();
+  generate->add_option("--robots", line.generate.robots,
+                       "Directory of robot files, for families with spatial arms [./robots]");
+  generate->add_flag("--witnesses", line.generate.witnesses,
+                     "Write a solution beside each scenario too, FILE.witness.csv, for judge");
+  generate->callback([&line] {
+    line.command = [&line](const Console& console) {
+      return generate_command(line.generate, console);
+    };
+  });
+}
+
+void declare_new_method(CLI::App& app, CommandLine& line) {
+  CLI::App* new_method = add_command(
+      app, "new-method", "Write a method that works, with its test, into the source tree");
+  new_method->add_option("NAME", line.method_name, "Its name, [a-z][a-z0-9_]*")->required();
+  new_method->add_option("--tree", line.tree, "Source tree of the project [.]");
+  new_method->callback([&line] {
+    line.command = [&line](const Console& console) {
+      return new_method_command(line.methods, line.method_name, line.tree, console);
+    };
+  });
+}
+
+void declare_validate(CLI::App& app, CommandLine& line) {
+  CLI::App* validate = add_command(app, "validate", "Check scenario files without running");
+  validate->add_option("FILE", line.files, "Scenario files, or directories with files *.yaml")
+      ->required();
+  validate->callback([&line] {
+    line.command = [&line](const Console& console) {
+      return validate_command(line.files, console);
+    };
+  });
+}
+
+}  // namespace
+
+void declare_run_commands(CLI::App& app, CommandLine& line) {
+  declare_list(app, line);
+  declare_run(app, line);
+  declare_show(app, line);
+  declare_step(app, line);
+  declare_conform(app, line);
+  declare_judge(app, line);
+  declare_generate(app, line);
+  declare_new_method(app, line);
+  declare_validate(app, line);
+}
+
+}  // namespace bqsa::harness
