@@ -13,10 +13,10 @@
 
 #include "harness/external/external_method.hpp"
 #include "harness/judge/judge.hpp"
-#include "harness/temporary_directory.hpp"
 #include "harness/program/test_methods.hpp"
 #include "harness/results/pair_run.hpp"
 #include "harness/results/table_row.hpp"
+#include "harness/temporary_directory.hpp"
 #include "running_process.hpp"
 
 namespace bqsa::harness {

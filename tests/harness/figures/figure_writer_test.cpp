@@ -10,8 +10,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "harness/temporary_directory.hpp"
 #include "harness/figures/gnuplot.hpp"
+#include "harness/temporary_directory.hpp"
 
 namespace bqsa::harness {
 namespace {

@@ -6,12 +6,12 @@
 
 #include <cmath>
 
-#include "harness/temporary_directory.hpp"
 #include "figure_data.hpp"
 #include "harness/figures/figure_writer.hpp"
 #include "harness/figures/gnuplot.hpp"
 #include "harness/figures/miss_rate_figure.hpp"
 #include "harness/measuring/detector.hpp"
+#include "harness/temporary_directory.hpp"
 
 namespace bqsa::harness {
 namespace {

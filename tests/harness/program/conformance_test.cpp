@@ -20,8 +20,8 @@
 #include "harness/method_spec.hpp"
 #include "harness/methods.hpp"
 #include "harness/scenario/scenario.hpp"
-#include "support/allocation_guard.hpp"
 #include "harness/temporary_directory.hpp"
+#include "support/allocation_guard.hpp"
 
 namespace {
 

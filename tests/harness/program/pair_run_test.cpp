@@ -14,8 +14,8 @@
 
 #include "harness/methods.hpp"
 #include "harness/results/table_row.hpp"
-#include "harness/trajectory_csv.hpp"
 #include "harness/temporary_directory.hpp"
+#include "harness/trajectory_csv.hpp"
 #include "test_methods.hpp"
 
 namespace bqsa::harness {
