@@ -41,7 +41,7 @@ if $full; then
   tools/quiet.sh "$logs/configure-sanitize.log" cmake --preset sanitize \
     -DBQSA_BUILD_TESTS=ON -DBQSA_BUILD_BENCHMARKS=OFF
   tools/quiet.sh "$logs/build-sanitize.log" cmake --build --preset sanitize --target \
-    bqsa-bench harness geometry_test kinematics_test hybrid_ik_test contract_test algorithm_test \
+    bqsa-bench harness geometry_test batch_test kinematics_test hybrid_ik_test contract_test algorithm_test \
     baselines_test baselines_fcl_test baselines_ompl_test judge_test scenario_test runner_test \
     results_test program_test canaries_test conformance_test mixes_test external_test \
     external_canaries_test external_program_test kdl_reference_test skeleton_test statistics_test \

@@ -27,3 +27,10 @@ function(bqsa_test name)
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gtest_main GTest::gmock)
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 endfunction()
+
+# For a target with vector code (Highway): compiled once for each instruction set, chosen at run time.
+# Left out are sets whose gain over their neighbours is small.
+function(bqsa_use_highway name)
+  target_link_libraries(${name} PRIVATE hwy::hwy)
+  target_compile_definitions(${name} PRIVATE "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_AVX3_DL)")
+endfunction()

@@ -50,6 +50,16 @@ void MotionCertificate::assign(const Problem& problem, WorkCounters& counters) {
 
 MotionCertificate::Result MotionCertificate::certify(int tick, const JointVector& q0,
                                                      const JointVector& q1) {
+  ChainPose pose0, pose1;
+  problem_->chain.forward(q0, pose0);
+  problem_->chain.forward(q1, pose1);
+  counters_->kinematics += 2;
+  return certify(tick, q0, pose0, q1, pose1);
+}
+
+MotionCertificate::Result MotionCertificate::certify(int tick, const JointVector& q0,
+                                                     const ChainPose& pose0, const JointVector& q1,
+                                                     const ChainPose& pose1) {
   const SerialChain& chain = problem_->chain;
   q0_ = q0;
   dq_ = q1 - q0;
@@ -62,10 +72,6 @@ MotionCertificate::Result MotionCertificate::certify(int tick, const JointVector
     assert(0 < tick && static_cast<std::size_t>(tick) < obstacle.motion.size());
     motions_[j] = motion_of(obstacle.at(tick - 1), obstacle.at(tick));
   }
-  ChainPose pose0, pose1;
-  chain.forward(q0, pose0);
-  chain.forward(q1, pose1);
-  counters_->kinematics += 2;
   pairs_.clear();
   for (int i = 0; i < static_cast<int>(chain.links().size()); ++i) {
     const Link& link = chain.links()[static_cast<std::size_t>(i)];

@@ -55,6 +55,11 @@ class MotionCertificate {
   /// is one of 1 .. ticks. Does not allocate.
   Result certify(int tick, const JointVector& q0, const JointVector& q1);
 
+  /// The same for a caller who knows where the links are.
+  /// @param pose0, pose1  of q0 and q1
+  Result certify(int tick, const JointVector& q0, const ChainPose& pose0, const JointVector& q1,
+                 const ChainPose& pose1);
+
  private:
   /// Parts shorter than 2^-kMaxHalvings of the motion are not halved again.
   static constexpr int kMaxHalvings = 12;
