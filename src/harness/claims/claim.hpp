@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "harness/claims/estimator.hpp"
@@ -19,6 +20,12 @@ enum class Relation {
   kWithin,  ///< from `lower` to `upper`, both included
 };
 
+/// A number for one set of vector instructions.
+struct NumberOfSet {
+  std::string instruction_set;  ///< as bqsa/batch/instruction_set.hpp names it
+  double value;
+};
+
 /// What a figure has to be for the statement to hold.
 struct Bound {
   std::string figure;
@@ -29,6 +36,13 @@ struct Bound {
 
   /// Why nothing decides this part of the statement; such a bound has no figure.
   std::string unknown = {};
+
+  /// Where the number depends on the vector instructions: those it is known for. choose_numbers() puts
+  /// one of them into `lower` and `upper`.
+  std::vector<NumberOfSet> numbers = {};
+
+  /// Why it says nothing on this machine: the number for its vector instructions is not known.
+  std::string not_here = {};
 };
 
 /// The statement as it would have to be put to hold.
@@ -63,9 +77,13 @@ struct Claim {
   bool timing() const;
 };
 
+/// Settles all bounds whose number depends on the vector instructions; where it is not known for this
+/// set, the bound says so in `not_here`.
+void choose_numbers(std::vector<Claim>& claims, std::string_view instruction_set);
+
 const char* name_of(Verdict verdict);
 
-/// `< 3.5 mm`, or `unknown: ...`.
+/// `< 3.5 mm`, `unknown: ...`, or `>= 400 with AVX3, 200 with AVX2` where nothing was chosen.
 std::string text_of(const Bound& bound);
 
 }  // namespace bqsa::harness::claims

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <set>
 #include <string>
@@ -16,6 +17,9 @@ namespace bqsa::harness::claims {
 namespace {
 
 constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
+
+/// Vector instructions that a bound may depend on (bqsa/batch/instruction_set.hpp).
+constexpr std::array kInstructionSets{"AVX3", "AVX2"};
 
 template <typename Named>
 std::string names(const std::vector<Named>& all) {
@@ -103,6 +107,19 @@ Relation read_relation(const YamlValue& yaml) {
       ->second;
 }
 
+/// The number to compare with: one, or one for each set of vector instructions.
+void read_number(const YamlValue& yaml, Bound& bound) {
+  for (const char* set : kInstructionSets) {
+    if (const auto value = yaml.find(set)) bound.numbers.push_back({set, value->number()});
+  }
+  if (bound.numbers.empty()) {
+    bound.lower = bound.upper = yaml.number();
+  } else {
+    yaml.expect_keys({kInstructionSets.begin(), kInstructionSets.end()});
+    bound.not_here = "vector instructions are not known";  // until one of the numbers is chosen
+  }
+}
+
 Bound read_bound(const YamlValue& yaml, const std::vector<EstimatorCall>& calls) {
   Bound bound;
   if (const auto unknown = yaml.find("unknown")) {
@@ -123,7 +140,7 @@ Bound read_bound(const YamlValue& yaml, const std::vector<EstimatorCall>& calls)
     if (bound.upper < bound.lower) to.fail(fmt::format("at least {}", bound.lower));
     if (const auto value = yaml.find("value")) value->fail("nothing beside from and to");
   } else {
-    bound.lower = bound.upper = yaml.get("value", "a number").number();
+    read_number(yaml.get("value", "a number"), bound);
     for (const char* end : {"from", "to"}) {
       if (const auto value = yaml.find(end)) value->fail("nothing beside value");
     }

@@ -98,6 +98,7 @@ Json claims_record(const std::vector<EvaluatedClaim>& claims, const EvaluationOr
                           {"build", build_json(origin.measured->build)},
                           {"machine", machine_json(origin.measured->before)},
                           {"other_cores", origin.measured->other_cores},
+                          {"instruction_set", origin.measured->instruction_set},
                           {"against", origin.measured->against}};
   }
   record["claims"] = list;

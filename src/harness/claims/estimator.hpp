@@ -27,6 +27,7 @@ struct Figure {
 struct Findings {
   std::vector<Figure> figures;
   std::vector<std::string> remarks = {};  ///< what the figures do not say, as a witness found
+  std::string not_here = {};  ///< why figures cannot be found on this machine, or in this build
 };
 
 struct FigureDeclaration {

@@ -17,8 +17,20 @@ std::vector<Outcome> outcomes_of(const std::vector<Bound>& bounds,
   return outcomes;
 }
 
+/// Why the first of the bounds that say nothing here does not; empty if all do.
+std::string not_here(const Claim& claim) {
+  std::vector<Bound> bounds = claim.as_stated;
+  if (claim.corrected) {
+    bounds.insert(bounds.end(), claim.corrected->bounds.begin(), claim.corrected->bounds.end());
+  }
+  for (const Bound& bound : bounds) {
+    if (!bound.not_here.empty()) return bound.not_here;
+  }
+  return {};
+}
+
 EvaluatedClaim evaluate_one(const Claim& claim, Laboratory& laboratory) {
-  EvaluatedClaim result{.claim = &claim};
+  EvaluatedClaim result{.claim = &claim, .not_here = not_here(claim)};
   for (const EstimatorCall& call : claim.calls) {
     Findings findings;
     try {
@@ -31,6 +43,7 @@ EvaluatedClaim evaluate_one(const Claim& claim, Laboratory& laboratory) {
       figure.name = call.prefix + figure.name;
       result.figures.push_back(std::move(figure));
     }
+    if (result.not_here.empty()) result.not_here = findings.not_here;
     for (std::string& remark : findings.remarks) {
       const std::string whose = call.prefix.substr(0, call.prefix.find('.'));
       result.remarks.push_back(whose.empty() ? std::move(remark)
@@ -67,6 +80,11 @@ void decide_standing(EvaluatedClaim& one, const TimesState& times, const Gate& g
   if (claim.timing() && !claim.gate && !gate.failure.empty()) {
     one.verdict = Verdict::kUndecided;
     if (claim.expected != Verdict::kUndecided) one.reason = gate.failure;
+  }
+  if (one.verdict == Verdict::kUndecided && one.reason.empty() && !one.not_here.empty()) {
+    one.standing = Standing::kNotDecidedHere;
+    one.reason = one.not_here;
+    return;
   }
   if (one.verdict == claim.expected) return;
   one.standing = Standing::kBroken;

@@ -17,8 +17,9 @@ enum class Standing {
   kAsExpected,
   kBroken,  ///< another verdict than expected: the claim no longer holds
 
-  /// Rests on times, and nothing is decided: the gate's self-test failed, or intervals are too wide on
-  /// a build or machine whose times are only indicative.
+  /// Nothing is decided: this machine lacks the vector instructions that bounds are given for, or this
+  /// build a program that is needed; or the claim rests on times, and the gate's self-test failed, or
+  /// intervals are too wide on a build or machine whose times are only indicative.
   kNotDecidedHere,
 };
 
@@ -30,7 +31,8 @@ struct EvaluatedClaim {
   std::vector<Outcome> corrected = {};
   Verdict verdict = Verdict::kUndecided;
   Standing standing = Standing::kAsExpected;
-  std::string reason = {};  ///< why nothing was decided here; else empty
+  std::string reason = {};    ///< why nothing was decided here; else empty
+  std::string not_here = {};  ///< what machine or build lack for it; else empty
 
   const FigureDeclaration* declaration_of(const Figure& figure) const;
 };

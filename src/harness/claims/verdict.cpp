@@ -25,7 +25,7 @@ bool any_fails(std::span<const Outcome> outcomes) {
 }  // namespace
 
 Outcome outcome_of(const Bound& bound, std::span<const Figure> figures) {
-  if (!bound.unknown.empty()) return Outcome::kUndecided;
+  if (!bound.unknown.empty() || !bound.not_here.empty()) return Outcome::kUndecided;
   const auto figure = std::find_if(figures.begin(), figures.end(),
                                    [&](const Figure& one) { return one.name == bound.figure; });
   if (figure == figures.end()) return Outcome::kUndecided;

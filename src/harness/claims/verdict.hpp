@@ -12,7 +12,8 @@ namespace bqsa::harness::claims {
 enum class Outcome { kHolds, kFails, kUndecided };
 
 /// Holds if all of the figure's interval satisfies the bound, fails if none of it does; else, and for
-/// a figure that is not there or not a number, or a bound that is unknown, it is undecided. A figure
+/// a figure that is not there or not a number, or a bound that is unknown or says nothing here, it is
+/// undecided. A figure
 /// without interval is the interval of its value alone.
 Outcome outcome_of(const Bound& bound, std::span<const Figure> figures);
 

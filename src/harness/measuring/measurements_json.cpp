@@ -32,6 +32,7 @@ Json context_json(const MeasurementOrigin& origin, std::size_t processes) {
                {"effort", origin.effort},
                {"processes", processes},
                {"other_cores", origin.other_cores},
+               {"instruction_set", origin.instruction_set},
                {"command_line", origin.command_line}};
   ours.update(build_json(build));
   ours.update(machine_json(machine));

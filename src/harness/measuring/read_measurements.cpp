@@ -39,6 +39,9 @@ MeasurementOrigin read_origin(const RecordValue& context) {
                                       .os = bqsa["os"].text(),
                                       .date = context["date"].text()},
                            .other_cores = bqsa["other_cores"].number(),
+                           .instruction_set = bqsa.has("instruction_set")
+                                                  ? bqsa["instruction_set"].text()
+                                                  : kUnknownInstructionSet,
                            .effort = bqsa["effort"].text(),
                            .command_line = bqsa["command_line"].text(),
                            .against = {}};

@@ -5,6 +5,7 @@
 #include <ostream>
 #include <sstream>
 
+#include "bqsa/batch/instruction_set.hpp"
 #include "harness/claims/claims_file.hpp"
 #include "harness/claims/claims_record.hpp"
 #include "harness/claims/claims_report.hpp"
@@ -117,7 +118,7 @@ Status render_claims_command(const fs::path& result, const fs::path& into, const
 Status claims_command(const std::vector<MethodEntry>& methods, const ClaimsOptions& options,
                       const Console& console) {
   const std::vector<claims::Claim> all = claims::load_claims(options.claims);
-  const std::vector<claims::Claim> claims = chosen_claims(all, options.only);
+  std::vector<claims::Claim> claims = chosen_claims(all, options.only);
   if (!options.directory.empty()) make_directory(options.directory);
 
   const bool timing = std::any_of(claims.begin(), claims.end(),
@@ -135,6 +136,8 @@ Status claims_command(const std::vector<MethodEntry>& methods, const ClaimsOptio
     origin.measured = measurements.origin;
     times.reasons_against = measurements.origin.against;
   }
+  claims::choose_numbers(claims, timing ? std::string_view(measurements.origin.instruction_set)
+                                        : instruction_set().name);
 
   claims::Laboratory laboratory({.scenarios = options.scenarios, .full = options.full}, methods,
                                 measurements.sweeps);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <ostream>
 
+#include "bqsa/batch/instruction_set.hpp"
 #include "harness/measuring/measure_processes.hpp"
 #include "harness/measuring/measurements.hpp"
 #include "harness/measuring/other_work.hpp"
@@ -135,6 +136,7 @@ Status measure_command(const MeasureOptions& options, const Console& console) {
   }
   Measurements measurements{.origin = {.build = build_info(),
                                        .before = machine_state(),
+                                       .instruction_set = std::string(instruction_set().name),
                                        .effort = options.full ? "full" : "quick",
                                        .command_line = options.command_line,
                                        .against = {}},
