@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "bqsa/hybrid_ik.hpp"
-#include "support/kdl_chain.hpp"
+#include "harness/measuring/kdl_chain.hpp"
 #include "support/paper_problems.hpp"
 
 namespace bqsa {
@@ -42,7 +42,7 @@ struct Inputs {
   SerialChain arm;
   std::vector<JointVector> q;
   std::vector<TaskVector> x_dot;
-  KDL::Chain chain = test_support::kdl_chain(arm.description());
+  KDL::Chain chain = harness::kdl_chain(arm.description());
   std::vector<KDL::JntArray> kdl_q;
   std::vector<KDL::Twist> kdl_x_dot;
 };
@@ -79,7 +79,7 @@ class Kdl {
       : inputs_(inputs),
         forward_(inputs.chain),
         jacobian_(inputs.chain),
-        step_(test_support::kdl_velocity_solver(inputs.chain, inputs.arm.dimension())) {}
+        step_(harness::kdl_velocity_solver(inputs.chain, inputs.arm.dimension())) {}
 
   const KDL::Frame& forward(std::size_t k) {
     forward_.JntToCart(inputs_.kdl_q[k], frame_);

@@ -16,14 +16,13 @@ namespace {
 void choose_numbers(std::vector<Bound>& bounds, std::string_view instruction_set) {
   for (Bound& bound : bounds) {
     if (bound.numbers.empty()) continue;
-    const auto number =
-        std::find_if(bound.numbers.begin(), bound.numbers.end(), [&](const NumberOfSet& one) {
-          return one.instruction_set == instruction_set;
-        });
+    const auto number = std::find_if(
+        bound.numbers.begin(), bound.numbers.end(),
+        [&](const NumberOfSet& one) { return one.instruction_set == instruction_set; });
     bound.not_here.clear();
     if (number == bound.numbers.end()) {
-      bound.not_here = fmt::format("vector instructions are {}, bounds are {}", instruction_set,
-                                   text_of(bound));
+      bound.not_here =
+          fmt::format("vector instructions are {}, bounds are {}", instruction_set, text_of(bound));
     } else {
       bound.lower = bound.upper = number->value;
     }

@@ -1,8 +1,11 @@
 #include "harness/measuring/bystanders.hpp"
 
+#include <fmt/format.h>
+
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "harness/generator/nominal_motion.hpp"
 #include "harness/generator/random_stream.hpp"
@@ -47,6 +50,17 @@ Stage spatial_stage() {
           .there = {-0.05, 0.15, -0.05}};
 }
 
+/// As robots/puma560.yaml.
+Stage puma_stage() {
+  constexpr double kRight = std::numbers::pi / 2;
+  ChainDescription chain;
+  chain.rows = {{0, kRight, 0.67183, 0}, {0.4318, 0, 0, 0},  {0.02032, -kRight, 0, -kRight},
+                {0, kRight, 0.43307, 0}, {0, -kRight, 0, 0}, {0, 0, 0.05625, 0}};
+  return {.chain = chain,
+          .start = angles({0.2, -1.0, 1.6, 0.1, 0.9, 0}),
+          .there = {-0.05, 0.15, -0.05}};
+}
+
 /// A point of a link at a tick, and from there anywhere within reach of the eye.
 Obstacle draw(const NominalMotion& nominal, RandomStream& random) {
   constexpr double kShortest = 0.03, kLongest = 0.12;  // semi-axes [m]
@@ -82,8 +96,9 @@ bool stays_clear(const NominalMotion& nominal, const Obstacle& obstacle) {
 
 }  // namespace
 
-Problem lonely_problem(int dimension) {
-  const Stage stage = dimension == 2 ? planar_stage() : spatial_stage();
+namespace {
+
+Problem on(const Stage& stage) {
   Problem problem{.name = "bystanders", .chain = SerialChain(stage.chain)};
   ChainPose pose;
   problem.chain.forward(stage.start, pose);
@@ -96,6 +111,14 @@ Problem lonely_problem(int dimension) {
   problem.start = stage.start;
   return problem;
 }
+
+}  // namespace
+
+Problem lonely_problem(int dimension) {
+  return on(dimension == 2 ? planar_stage() : spatial_stage());
+}
+
+Problem lonely_puma() { return on(puma_stage()); }
 
 std::vector<Obstacle> draw_bystanders(const Problem& lonely, int count) {
   Problem period = lonely;
@@ -112,9 +135,9 @@ std::vector<Obstacle> draw_bystanders(const Problem& lonely, int count) {
   return bystanders;
 }
 
-ControlLoop::ControlLoop(const MethodEntry& method, const Problem& problem)
-    : dt_(problem.dt), method_(method.make(ParameterValues(method.parameters))) {
-  assert(!method.capabilities.plans);
+ControlLoop::ControlLoop(const MethodSpec& method, const Problem& problem)
+    : dt_(problem.dt), method_(method.entry.make(method.parameters)) {
+  assert(!method.entry.capabilities.plans);
   reactive_ = &dynamic_cast<ReactiveMethod&>(*method_);
   for (int tick = 0; tick < kBystanderPeriod; ++tick) {
     desired_.push_back(problem.desired_tip(problem.time(tick)));
@@ -133,6 +156,19 @@ void ControlLoop::run(int ticks) {
     if (output_.state == TickState::kInfeasible) ++infeasible_;
     if (output_.q.size() == input_.q.size()) input_.q = output_.q;
   }
+}
+
+void require_left_alone(const MethodSpec& method, const Problem& lonely,
+                        const ControlLoop& measured) {
+  ControlLoop alone(method, lonely);
+  alone.run(measured.tick());
+  constexpr double kSame = 1e-9;  // [rad]
+  const double apart = (alone.q() - measured.q()).cwiseAbs().maxCoeff();
+  if (measured.infeasible() == 0 && apart <= kSame) return;
+  throw std::runtime_error(
+      fmt::format("{}: expected that bystanders change nothing, after {} steps joints are {} rad "
+                  "elsewhere, and it gave up in {}; no times are taken",
+                  method.entry.name, measured.tick(), apart, measured.infeasible()));
 }
 
 }  // namespace bqsa::harness

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bqsa/method.hpp"
+#include "harness/method_spec.hpp"
 
 namespace bqsa::harness {
 
@@ -21,6 +22,9 @@ inline constexpr int kBystanderPeriod = 100;
 /// @param dimension  2 or 3
 Problem lonely_problem(int dimension);
 
+/// The same with the PUMA 560 of the paper's section 4.2, away from its singular postures.
+Problem lonely_puma();
+
 /// Obstacles within a metre or so of the nominal motion, drawn from a seed, clear of it by
 /// kBystanderClearance; they may overlap each other. A shorter list is the start of a longer one.
 std::vector<Obstacle> draw_bystanders(const Problem& lonely, int count);
@@ -31,7 +35,7 @@ class ControlLoop {
  public:
   /// Makes and prepares the method; the problem must outlive it and repeat itself after
   /// kBystanderPeriod ticks.
-  ControlLoop(const MethodEntry& method, const Problem& problem);
+  ControlLoop(const MethodSpec& method, const Problem& problem);
 
   /// Runs on for so many ticks.
   void run(int ticks);
@@ -50,5 +54,11 @@ class ControlLoop {
   StepOutput output_;
   int infeasible_ = 0;
 };
+
+/// The steps that were measured have to be those that the method makes without bystanders.
+/// @param measured  of this method, on `lonely` with bystanders
+/// @throws std::runtime_error if joints are not where they would be without, or it gave up
+void require_left_alone(const MethodSpec& method, const Problem& lonely,
+                        const ControlLoop& measured);
 
 }  // namespace bqsa::harness

@@ -12,15 +12,17 @@
 
 #include "harness/input_error.hpp"
 #include "harness/measuring/bystanders.hpp"
-#include "harness/measuring/detector.hpp"
-#include "harness/measuring/verify_detector.hpp"
+#include "harness/measuring/detector_passes.hpp"
+#include "harness/measuring/speed_of_pairs.hpp"
+#include "harness/measuring/speed_of_steps.hpp"
 #include "harness/methods.hpp"
 
 namespace bqsa::harness {
 namespace {
 
-constexpr std::array<std::string_view, 7> kSweepNames{
-    "plane_nm", "plane_nk", "space_nm", "space_nk", "step_nk", "space_step_nk", kGateSweep};
+constexpr std::array<std::string_view, 9> kSweepNames{"plane_nm", "plane_nk",    "space_nm",
+                                                      "space_nk", "step_nk",     "space_step_nk",
+                                                      kGateSweep, kSpeedOfPairs, kSpeedOfSteps};
 
 constexpr std::array kSteps{1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10'000};
 constexpr int kPairs = 27;        ///< nk where NM varies (paper, Fig. 5)
@@ -39,52 +41,12 @@ double wall_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// A detector at work, pose after pose.
-class Passes {
- public:
-  Passes(const Detector& detector, const Workload& workload)
-      : name_(detector.name),
-        detection_(detector.prepare(workload)),
-        poses_(static_cast<int>(workload.poses.size())),
-        hit_(static_cast<std::size_t>(workload.size.pairs())) {}
-
-  void make(int passes) {
-    for (int i = 0; i < passes; ++i) {
-      detection_->detect(pose_, hit_);
-      hits_ += hit_.back();
-      pose_ = pose_ + 1 < poses_ ? pose_ + 1 : 0;
-    }
-  }
-
-  const std::string& name() const { return name_; }
-
- private:
-  std::string name_;
-  std::unique_ptr<Detection> detection_;
-  int poses_;
-  int pose_ = 0;
-  std::vector<std::uint8_t> hit_;
-  std::uint64_t hits_ = 0;  ///< so that the answers are consumed
-};
-
 /// Mean of the paper's 100 single passes, after one to get warm [s].
-double paper_mean(Passes& passes) {
+double paper_mean(DetectorPasses& passes) {
   passes.make(1);
   const double start = wall_seconds();
   passes.make(kPaperPasses);
   return (wall_seconds() - start) / kPaperPasses;
-}
-
-void verify(const Workload& workload, const std::vector<const Detector*>& detectors, int pairs) {
-  const ReferenceAnswers reference = reference_answers(workload, pairs);
-  for (const Detector* detector : detectors) {
-    const std::string broken =
-        broken_promise(*detector, verify_detector(*detector, workload, reference));
-    if (broken.empty()) continue;
-    throw std::runtime_error(fmt::format(
-        "nk = {}, NM = {} in {} dimensions: {}; no times are taken", workload.size.pairs(),
-        workload.size.point_pairs(), workload.size.dimension, broken));
-  }
 }
 
 /// Adds what came out of a contest of all series at all sizes, size by size.
@@ -98,7 +60,7 @@ void add(const std::vector<ContestTimes>& times, Sweep& sweep) {
 /// A size of a sweep of detectors, ready to be measured.
 struct DetectorsAtSize {
   Workload workload;
-  std::vector<Passes> passes;  ///< of each detector; refer to the workload
+  std::vector<DetectorPasses> passes;  ///< of each detector; refer to the workload
 };
 
 void sweep_detectors(int dimension, const SweepSettings& settings, const SweepProgress& progress,
@@ -120,10 +82,10 @@ void sweep_detectors(int dimension, const SweepSettings& settings, const SweepPr
     sweep.sizes.push_back(size);
     DetectorsAtSize& at = all_sizes.emplace_back(
         DetectorsAtSize{.workload = make_workload(size, kWorkloadSeed), .passes = {}});
-    verify(at.workload, chosen, settings.verified_pairs);
+    require_right_answers(at.workload, chosen, settings.verified_pairs);
     at.passes.reserve(chosen.size());
     for (const Detector* detector : chosen) {
-      Passes& passes = at.passes.emplace_back(*detector, at.workload);
+      DetectorPasses& passes = at.passes.emplace_back(*detector, at.workload);
       contestants.push_back(
           {passes.name(), [&passes](int repetitions) { passes.make(repetitions); }});
     }
@@ -137,19 +99,6 @@ void sweep_detectors(int dimension, const SweepSettings& settings, const SweepPr
       sweep.series[c].paper_passes.push_back(kPaperPasses);
     }
   }
-}
-
-/// The steps that were measured are those that the method makes without bystanders.
-void verify(const MethodEntry& method, const Problem& lonely, const ControlLoop& measured) {
-  ControlLoop alone(method, lonely);
-  alone.run(measured.tick());
-  constexpr double kSame = 1e-9;  // [rad]
-  const double apart = (alone.q() - measured.q()).cwiseAbs().maxCoeff();
-  if (measured.infeasible() == 0 && apart <= kSame) return;
-  throw std::runtime_error(
-      fmt::format("{}: expected that bystanders change nothing, after {} steps joints are {} rad "
-                  "elsewhere, and it gave up in {}; no times are taken",
-                  method.name, measured.tick(), apart, measured.infeasible()));
 }
 
 void sweep_steps(int dimension, const SweepSettings& settings, const SweepProgress& progress,
@@ -174,13 +123,13 @@ void sweep_steps(int dimension, const SweepSettings& settings, const SweepProgre
                            .links = static_cast<int>(lonely.chain.links().size()),
                            .obstacles = k});
     for (const MethodEntry* method : chosen) {
-      ControlLoop& loop = loops.emplace_back(*method, problem);
+      ControlLoop& loop = loops.emplace_back(with_defaults(*method), problem);
       contestants.push_back({method->name, [&loop](int steps) { loop.run(steps); }});
     }
   }
   add(run_contest(contestants, settings.contest), sweep);
   for (std::size_t i = 0; i < loops.size(); ++i) {
-    verify(*chosen[i % chosen.size()], lonely, loops[i]);
+    require_left_alone(with_defaults(*chosen[i % chosen.size()]), lonely, loops[i]);
   }
 }
 
@@ -190,8 +139,8 @@ void sweep_gate(const SweepSettings& settings, const SweepProgress& progress, Sw
   const WorkloadSize size = workload_size(2, kPairs, kPointPairs);
   const Workload workload = make_workload(size, kWorkloadSeed);
   const Detector& detector = detector_named("bqsa");
-  verify(workload, {&detector}, settings.verified_pairs);
-  Passes once(detector, workload), again(detector, workload), half_more(detector, workload);
+  require_right_answers(workload, {&detector}, settings.verified_pairs);
+  DetectorPasses once(detector, workload), again(detector, workload), half_more(detector, workload);
   sweep.sizes.push_back(size);
   for (const char* name : {"once", "once_again", "half_more"}) {
     sweep.series.push_back({.name = name, .seconds = {}, .paper_seconds = {}});
@@ -210,7 +159,13 @@ void sweep_gate(const SweepSettings& settings, const SweepProgress& progress, Sw
 
 std::span<const std::string_view> sweep_names() { return kSweepNames; }
 
-bool is_of_steps(std::string_view sweep_name) { return sweep_name.ends_with("step_nk"); }
+bool is_of_steps(std::string_view sweep_name) {
+  return sweep_name.ends_with("step_nk") || sweep_name == kSpeedOfSteps;
+}
+
+bool is_at_one_size(std::string_view sweep_name) {
+  return sweep_name == kGateSweep || sweep_name == kSpeedOfPairs || sweep_name == kSpeedOfSteps;
+}
 
 SweepSettings quick_sweeps() { return {}; }
 
@@ -229,6 +184,12 @@ Sweep run_sweep(std::string_view name, const SweepSettings& settings,
   const int dimension = name.starts_with("space") ? 3 : 2;
   if (name == kGateSweep) {
     sweep_gate(settings, progress, sweep);
+  } else if (name == kSpeedOfPairs) {
+    if (progress) progress(sweep.name);
+    measure_speed_of_pairs(settings.contest, settings.verified_pairs, sweep);
+  } else if (name == kSpeedOfSteps) {
+    if (progress) progress(sweep.name);
+    measure_speed_of_steps(settings.contest, sweep);
   } else if (is_of_steps(name)) {
     sweep_steps(dimension, settings, progress, sweep);
   } else {

@@ -18,7 +18,8 @@ namespace bqsa::harness {
 /// - `step_nk`, `space_step_nk`: a control step of each reactive method, a planar and a spatial arm
 ///   among bystanders, nk from 7 (8) to 7,000 (4,000);
 /// - `gate`: a pass of `bqsa` (`once`) against another of the same (`once_again`) and against one and a half
-///   passes (`half_more`): what a gate on ratios has to call a tie and a difference.
+///   passes (`half_more`): what a gate on ratios has to call a tie and a difference;
+/// - `speed_pairs`, `speed_steps`: what claims on speed compare (speed_of_pairs.hpp, speed_of_steps.hpp).
 std::span<const std::string_view> sweep_names();
 
 /// The sweep that measures nothing but the measuring.
@@ -32,6 +33,9 @@ struct SweepSettings {
   bool paper_protocol = true;  ///< of test points and of BQSA in the paper's form, besides
   int verified_pairs = 2000;   ///< of each detector at each size, before its time is taken
 };
+
+/// Whether it has one size only: its series are compared with each other, and no figure is drawn.
+bool is_at_one_size(std::string_view sweep_name);
 
 /// In a process of some 20 s for all sweeps together.
 SweepSettings quick_sweeps();

@@ -90,7 +90,7 @@ void require_paper_series(const Sweep& sweep) {
 void write_measured_figures(const Measurements& measurements, FigureWriter& writer) {
   const TimesOrigin origin = times_origin(measurements.origin);
   for (const Sweep& sweep : measurements.sweeps) {
-    if (sweep.name == kGateSweep) continue;
+    if (is_at_one_size(sweep.name)) continue;
     if (is_of_steps(sweep.name)) {
       writer.write(step_times(sweep, origin));
       continue;
@@ -133,7 +133,7 @@ Status figures_command(const FiguresOptions& options, const Console& console) {
                                           : read_measurements(options.measurements);
     write_measured_figures(measurements, writer);
     for (const std::string_view name : sweep_names()) {
-      if (name == kGateSweep || measurements.find(name) != nullptr) continue;
+      if (is_at_one_size(name) || measurements.find(name) != nullptr) continue;
       console.out << fmt::format("no times of {}: its figures are left out\n", name);
     }
   }

@@ -93,8 +93,7 @@ void add_sweep(const Sweep& sweep, TextTable& table) {
       if (!series.measured(size)) return std::string("-");
       return figure(series.median(size) / kNanosecond / (steps ? 1 : sweep.sizes[size].pairs()));
     };
-    constexpr std::size_t kFewestSizes = 3;
-    if (sweep.sizes.size() < kFewestSizes) {  // the gate's self-test
+    if (is_at_one_size(sweep.name)) {
       table.add_row({"  " + series.name, time_at(0), time_at(last), "-", "", "", ""});
       continue;
     }

@@ -9,16 +9,16 @@
 #include "baselines/plain_tracking.hpp"
 #include "bqsa/hybrid_ik.hpp"
 #include "harness/generator/arm.hpp"
+#include "harness/measuring/kdl_chain.hpp"
 #include "harness/scenario/scenario.hpp"
-#include "support/kdl_chain.hpp"
 #include "support/near_obstacles.hpp"
 #include "support/replay.hpp"
 
 namespace bqsa::baselines {
 namespace {
 
-using test_support::kdl_chain;
-using test_support::kdl_vector;
+using harness::kdl_chain;
+using harness::kdl_vector;
 
 const char* const kScenarios[] = {"planar_7r", "puma560_ellipsoid", "puma560_wall"};
 
@@ -73,7 +73,7 @@ TEST(KdlReference, HasTheSameTipAndJacobianForEveryArm) {
 /// Plain tracking made of KDL's parts: its forward kinematics and its weighted damped least squares.
 std::vector<JointVector> tracked_by_kdl(const Problem& problem) {
   const KDL::Chain chain = kdl_chain(problem.chain.description());
-  KDL::ChainIkSolverVel_wdls solver = test_support::kdl_velocity_solver(chain, problem.dimension());
+  KDL::ChainIkSolverVel_wdls solver = harness::kdl_velocity_solver(chain, problem.dimension());
   std::vector<JointVector> rows = {problem.start};
   KDL::JntArray q_dot(chain.getNrOfJoints());
   for (int tick = 1; tick <= problem.ticks; ++tick) {

@@ -7,7 +7,7 @@
 
 #include "bqsa/kinematics/serial_chain.hpp"
 
-namespace bqsa::test_support {
+namespace bqsa::harness {
 
 inline KDL::Vector kdl_vector(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -45,4 +45,4 @@ inline KDL::ChainIkSolverVel_wdls kdl_velocity_solver(const KDL::Chain& chain, i
   return solver;
 }
 
-}  // namespace bqsa::test_support
+}  // namespace bqsa::harness
