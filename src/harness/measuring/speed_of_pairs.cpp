@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <deque>
 
+#include "bqsa/batch/batched_test.hpp"
 #include "bqsa/geometry/segment_test.hpp"
 #include "harness/measuring/detector_passes.hpp"
 #include "harness/measuring/end_points.hpp"
@@ -55,6 +56,69 @@ class SingleCalls {
   std::uint64_t hits_ = 0;
 };
 
+/// Poses as the batched test reads them.
+template <typename Real>
+class FlatPoses {
+ public:
+  explicit FlatPoses(const Workload& workload)
+      : numbers_a_pose_(3 * (static_cast<std::size_t>(workload.size.links) + 1)) {
+    for (const Eigen::Matrix3Xd& pose : workload.poses) {
+      for (const double x : pose.reshaped()) numbers_.push_back(static_cast<Real>(x));
+    }
+  }
+
+  std::span<const Real> next() {
+    const std::span pose = std::span<const Real>(numbers_).subspan(at_, numbers_a_pose_);
+    at_ = at_ + numbers_a_pose_ < numbers_.size() ? at_ + numbers_a_pose_ : 0;
+    return pose;
+  }
+
+ private:
+  std::size_t numbers_a_pose_;
+  std::vector<Real> numbers_;
+  std::size_t at_ = 0;
+};
+
+constexpr Workspace kWorkspace{.reach = 2, .link_length = 1.01 * kLinkLength};
+
+/// The batched test, which answers by a bit a pair.
+template <typename Real>
+class Batch {
+ public:
+  /// @param obstacles  those of the workload, over and over
+  Batch(const Workload& workload, int obstacles)
+      : poses_(workload),
+        obstacles_(obstacles, kWorkspace),
+        masks_(masks_needed(obstacles_, links(workload))) {
+    for (int j = 0; j < obstacles; ++j) {
+      obstacles_.set(j,
+                     workload.obstacles[static_cast<std::size_t>(j) % workload.obstacles.size()]);
+    }
+  }
+
+  void make(int passes) {
+    for (int i = 0; i < passes; ++i) {
+      hit_masks<3, Real>(obstacles_, poses_.next(), masks_);
+      bits_ += masks_.back();
+    }
+  }
+
+  /// Of as many as the workload has.
+  double units() const { return double(obstacles_.size()) / kSpeedSize.obstacles; }
+  const Real* coefficients() const { return obstacles_.coefficients(); }
+  std::size_t numbers() const {
+    return static_cast<std::size_t>(obstacles_.blocks()) * ObstacleBatch<3, Real>::kBlockSize;
+  }
+
+ private:
+  static int links(const Workload& workload) { return workload.size.links; }
+
+  FlatPoses<Real> poses_;
+  ObstacleBatch<3, Real> obstacles_;
+  std::vector<HitMask> masks_;
+  std::uint64_t bits_ = 0;  ///< so that the answers are consumed
+};
+
 MissRate misses_at(const PairPopulation& pairs, int point_pairs) {
   return pairs.ask(detector_named(kTestPoints),
                    workload_size(kSpeedSize.dimension, 1, point_pairs).test_points);
@@ -103,7 +167,24 @@ void measure_speed_of_pairs(const ContestSettings& settings, int verified_pairs,
   SingleCalls single(workload);
   contestants.push_back({"single_call", [&](int repetitions) { single.make(repetitions); }});
 
+  Batch<double> batch(workload, kSpeedSize.obstacles), far(workload, kFarObstacles);
+  Batch<float> batch_float(workload, kSpeedSize.obstacles), far_float(workload, kFarObstacles);
+  const auto add_batch = [&](const char* name, auto& one) {
+    contestants.push_back({name, [&one](int repetitions) { one.make(repetitions); }, one.units()});
+  };
+  add_batch("batch", batch);
+  add_batch("batch_float", batch_float);
+  add_batch("batch_far", far);
+  add_batch("batch_float_far", far_float);
+
   volatile double sink = 0;
+  contestants.push_back({"read_far",
+                         [&](int repetitions) {
+                           for (int i = 0; i < repetitions; ++i) {
+                             sink = read_all(far.coefficients(), far.numbers());
+                           }
+                         },
+                         far.units()});
   constexpr std::int64_t kMultiplyAdds =
       std::int64_t{kMultiplyAddsOfPair} * kSpeedSize.links * kSpeedSize.obstacles;
   contestants.push_back({"multiply_adds", [&](int repetitions) {

@@ -21,7 +21,7 @@ inline constexpr int kMultiplyAddsOfPair = 14;
 inline constexpr WorkloadSize kSpeedSize{.dimension = 3, .links = 7, .obstacles = 64};
 
 /// Obstacles of those series that are out of any cache.
-inline constexpr int kFarObstacles = 1 << 20;
+inline constexpr int kFarObstacles = 1 << 21;
 
 /// Series: `multiply_adds`, `multiply_adds_float` (as many as the pairs have, at the machine's peak), `read_far`
 /// (as many bytes as the obstacles of `batch_far` have), `single_call` (the polar form, every pair by a call of its own),
