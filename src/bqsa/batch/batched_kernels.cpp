@@ -94,7 +94,7 @@ bool hit_masks(const Pass<Real>& pass, std::uint16_t* masks) {
       pass,
       [&](int first, int block, int link, const auto& u, const auto& v) {
         const auto free = signs(d, free_sign(u, v, one));
-        put_inverted(bits(d, free), first,
+        put_inverted(bits(d, free), static_cast<int>(hn::Lanes(d)), first,
                      masks + static_cast<std::ptrdiff_t>(block) * pass.links + link);
       },
       [] { return false; });
