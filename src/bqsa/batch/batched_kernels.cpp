@@ -47,10 +47,11 @@ HWY_INLINE void for_all_pairs(const Pass<Real>& pass, const OfLink& of_link, con
   using V = hn::Vec<Vectors<Real>>;
   const auto lanes = static_cast<int>(hn::Lanes(d));
   const V one = hn::Set(d, Real(1));
-  for (int block = 0; block < pass.blocks; ++block) {
+  for (int block = 0; block * kBlock < pass.obstacles; ++block) {
+    const int filled = HWY_MIN(kBlock, pass.obstacles - block * kBlock);
     const Real* coefficients =
         pass.coefficients + static_cast<std::ptrdiff_t>(block) * kBlock * rows(Dim);
-    for (int first = 0; first < kBlock; first += lanes) {
+    for (int first = 0; first < filled; first += lanes) {
       const auto map = unit_map<Dim, V>(
           [&](int row) { return hn::Load(d, coefficients + row * kBlock + first); });
       const Real* point = pass.points;
@@ -61,20 +62,28 @@ HWY_INLINE void for_all_pairs(const Pass<Real>& pass, const OfLink& of_link, con
         return u;
       };
       auto u = next_point();
-      for (int link = 0; link < pass.links; ++link) {
+      int link = 0;
+      for (; link + 2 <= pass.links; link += 2) {  // by two, so that nothing need be moved
         const auto v = next_point();
         of_link(first, block, link, u, v);
-        u = v;
+        u = next_point();
+        of_link(first, block, link + 1, v, u);
       }
+      if (link < pass.links) of_link(first, block, link, u, next_point());
       if (stop()) return;
     }
   }
 }
 
-/// The bits of the obstacles from `first` on, into a mask whose earlier bits are written.
+/// Bits of the obstacles from `first` on, into a mask whose earlier bits are written.
 HWY_INLINE void put(unsigned some, int first, std::uint16_t* mask) {
   const unsigned earlier = first == 0 ? 0U : *mask;
   *mask = static_cast<std::uint16_t>(earlier | some << first);
+}
+
+/// The same for `lanes` bits that are to be inverted.
+HWY_INLINE void put_inverted(unsigned some, int lanes, int first, std::uint16_t* mask) {
+  put(some ^ ((1U << lanes) - 1), first, mask);
 }
 
 template <int Dim, typename Real>
@@ -84,8 +93,9 @@ bool hit_masks(const Pass<Real>& pass, std::uint16_t* masks) {
   for_all_pairs<Dim>(
       pass,
       [&](int first, int block, int link, const auto& u, const auto& v) {
-        const auto hit = hn::Not(signs(d, free_sign(u, v, one)));
-        put(bits(d, hit), first, masks + static_cast<std::ptrdiff_t>(block) * pass.links + link);
+        const auto free = signs(d, free_sign(u, v, one));
+        put_inverted(bits(d, free), static_cast<int>(hn::Lanes(d)), first,
+                     masks + static_cast<std::ptrdiff_t>(block) * pass.links + link);
       },
       [] { return false; });
   return within_reach<Dim>(pass);

@@ -11,7 +11,7 @@ namespace bqsa::batch {
 template <typename Real>
 struct Pass {
   const Real* coefficients;
-  int blocks;
+  int obstacles;
   const Real* points;
   int links;   ///< one less than points
   Real reach;  ///< largest size of a coordinate

@@ -24,7 +24,7 @@ template <int Dim, typename Real>
 batch::Pass<Real> pass_over(const ObstacleBatch<Dim, Real>& obstacles,
                             std::span<const Real> points) {
   assert(points.size() >= 2 * Dim && points.size() % Dim == 0);
-  return {obstacles.coefficients(), obstacles.blocks(), points.data(),
+  return {obstacles.coefficients(), obstacles.size(), points.data(),
           static_cast<int>(points.size()) / Dim - 1, reach_of<Real>(obstacles.workspace())};
 }
 
@@ -38,7 +38,7 @@ void for_links_out_of_reach(const ObstacleBatch<Dim, Real>& obstacles,
   };
   for (int link = 0; link < pass.links; ++link) {
     if (within(link) && within(link + 1)) continue;
-    for (int block = 0; block < pass.blocks; ++block) {
+    for (int block = 0; block < obstacles.blocks(); ++block) {
       const int count = std::min(obstacles.size() - block * obstacles.kBlock, obstacles.kBlock);
       of(static_cast<std::size_t>(block) * static_cast<std::size_t>(pass.links) +
              static_cast<std::size_t>(link),
@@ -79,7 +79,7 @@ void category_masks(const ObstacleBatch<Dim, Real>& obstacles, std::span<const R
 template <int Dim, typename Real>
 bool any_hit(const ObstacleBatch<Dim, Real>& obstacles, std::span<const Real> points) {
   const batch::Pass<Real> pass = pass_over(obstacles, points);
-  if (pass.blocks == 0) return false;
+  if (pass.obstacles == 0) return false;
   return !(Dim == 2 ? batch::all_free_plane(pass) : batch::all_free_space(pass));
 }
 

@@ -29,7 +29,7 @@ using HitMask = std::uint16_t;
 
 /// How all obstacles of a block lie to one link: bit j of the mask of a category (segment_test.hpp) is
 /// set if obstacle j is in that category. Every obstacle is in exactly one; bits beyond the last are in
-/// those of no hit.
+/// no mask of hits.
 struct CategoryMasks {
   HitMask no_collision_1, no_collision_2, crossing, one_end_inside, contained;
 

@@ -119,8 +119,13 @@ HWY_INLINE V free_sign(const UnitPoint<Dim, V>& u, const UnitPoint<Dim, V>& v, V
 /// Lanes whose sign bit is set, NaNs included.
 template <class D, class V>
 HWY_INLINE hn::Mask<D> signs(D d, V v) {
+#if HWY_TARGET == HWY_SCALAR
   const hn::RebindToSigned<D> integers;
   return hn::RebindMask(d, hn::Lt(hn::BitCast(integers, v), hn::Zero(integers)));
+#else
+  (void)d;
+  return hn::MaskFromVec(v);  // on x86 no other bit is looked at
+#endif
 }
 
 /// The same as bits, lane 0 first. For at most 16 lanes.
