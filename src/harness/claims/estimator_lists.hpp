@@ -14,5 +14,6 @@ std::vector<Estimator> geometry_estimators();    ///< lemmas and categories, in 
 std::vector<Estimator> kinematics_estimators();  ///< the hybrid inverse kinematics
 std::vector<Estimator> run_estimators();         ///< runs of methods on scenarios, judged
 std::vector<Estimator> behaviour_estimators();   ///< what happens within a run, tick by tick
+std::vector<Estimator> speed_estimators();       ///< how close to the machine's limits
 
 }  // namespace bqsa::harness::claims

@@ -35,6 +35,9 @@ class Laboratory {
   struct Settings {
     std::filesystem::path scenarios = "scenarios";
     bool full = false;
+
+    /// Of this program's build; where other programs of the same build are.
+    std::filesystem::path build_directory = {};
   };
 
   /// @param methods, sweeps  outlive the laboratory
@@ -45,6 +48,9 @@ class Laboratory {
   /// How many samples to draw where a quick evaluation draws so many.
   int samples(int quick) const { return settings_.full ? kFullFactor * quick : quick; }
   static constexpr int kFullFactor = 20;
+  bool full() const { return settings_.full; }
+
+  const std::filesystem::path& build_directory() const { return settings_.build_directory; }
 
   /// The problem of an experiment.
   /// @throws InputError if there is no such scenario or obstacle

@@ -82,6 +82,13 @@ void report_broken(const std::vector<claims::EvaluatedClaim>& claims, const Cons
   }
 }
 
+/// This program is in src/harness/program of its build.
+fs::path build_directory() {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  return program.parent_path().parent_path().parent_path().parent_path();
+}
+
 void make_directory(const fs::path& directory) {
   std::error_code error;
   fs::create_directories(directory, error);
@@ -139,8 +146,9 @@ Status claims_command(const std::vector<MethodEntry>& methods, const ClaimsOptio
   claims::choose_numbers(claims, timing ? std::string_view(measurements.origin.instruction_set)
                                         : instruction_set().name);
 
-  claims::Laboratory laboratory({.scenarios = options.scenarios, .full = options.full}, methods,
-                                measurements.sweeps);
+  claims::Laboratory laboratory(
+      {.scenarios = options.scenarios, .full = options.full, .build_directory = build_directory()},
+      methods, measurements.sweeps);
   constexpr const char* kClearLine = "\r\033[K";
   const auto progress = [&](const claims::Claim& claim) {
     if (console.terminal) console.err << kClearLine << claim.id << std::flush;
