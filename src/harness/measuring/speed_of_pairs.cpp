@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <deque>
+#include <numbers>
+#include <stdexcept>
 
 #include "bqsa/batch/batched_test.hpp"
+#include "bqsa/batch/configuration_check.hpp"
 #include "bqsa/geometry/segment_test.hpp"
+#include "harness/generator/random_stream.hpp"
 #include "harness/measuring/detector_passes.hpp"
 #include "harness/measuring/end_points.hpp"
 #include "harness/measuring/machine_limits.hpp"
@@ -119,6 +123,64 @@ class Batch {
   std::uint64_t bits_ = 0;  ///< so that the answers are consumed
 };
 
+/// Configurations of an arm of seven links, all of which are free: none is done before all its pairs
+/// were asked.
+class Configurations {
+ public:
+  Configurations()
+      : check_(arm(), obstacles(), 0),
+        configurations_(kSpeedSize.links, kCount),
+        free_(configurations_.blocks()) {
+    RandomStream random{kSeed};
+    for (int i = 0; i < kCount; ++i) {
+      JointVector q(kSpeedSize.links);
+      for (double& angle : q) angle = random.uniform(-1, 1);
+      configurations_.set(i, q);
+    }
+  }
+
+  void make(int passes) {
+    for (int i = 0; i < passes; ++i) {
+      check_.certainly_free(configurations_, free_);
+      bits_ += free_.back();
+    }
+  }
+
+  bool all_free() {
+    make(1);
+    return std::all_of(free_.begin(), free_.end(),
+                       [](std::uint16_t block) { return block == 0xffff; });
+  }
+
+  static constexpr int kCount = 1024;
+
+ private:
+  static SerialChain arm() {
+    ChainDescription arm;
+    for (int j = 0; j < kSpeedSize.links; ++j) {
+      const double turn = (j % 2 == 0 ? 1 : -1) * std::numbers::pi / 2;
+      arm.rows.push_back({.a = kLinkLength, .alpha = turn});
+    }
+    return SerialChain(arm);
+  }
+
+  /// Beyond the arm's reach.
+  static std::vector<Ellipsoid> obstacles() {
+    constexpr double kAway = 1.5 * kSpeedSize.links * kLinkLength;
+    RandomStream random{kSeed};
+    std::vector<Ellipsoid> shapes;
+    for (int j = 0; j < kSpeedSize.obstacles; ++j) {
+      shapes.emplace_back(kAway * random.direction(3), Eigen::Vector3d(0.1, 0.15, 0.2));
+    }
+    return shapes;
+  }
+
+  ConfigurationCheck check_;
+  ConfigurationArray configurations_;
+  std::vector<std::uint16_t> free_;
+  std::uint64_t bits_ = 0;  ///< so that the answers are consumed
+};
+
 MissRate misses_at(const PairPopulation& pairs, int point_pairs) {
   return pairs.ask(detector_named(kTestPoints),
                    workload_size(kSpeedSize.dimension, 1, point_pairs).test_points);
@@ -176,6 +238,13 @@ void measure_speed_of_pairs(const ContestSettings& settings, int verified_pairs,
   add_batch("batch_float", batch_float);
   add_batch("batch_far", far);
   add_batch("batch_float_far", far_float);
+
+  Configurations configurations;
+  if (!configurations.all_free())
+    throw std::runtime_error("configurations: expected all to be free");
+  contestants.push_back({"configurations",
+                         [&](int repetitions) { configurations.make(repetitions); },
+                         Configurations::kCount});
 
   volatile double sink = 0;
   contestants.push_back({"read_far",

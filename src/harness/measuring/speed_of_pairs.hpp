@@ -23,10 +23,14 @@ inline constexpr WorkloadSize kSpeedSize{.dimension = 3, .links = 7, .obstacles 
 /// Obstacles of those series that are out of any cache.
 inline constexpr int kFarObstacles = 1 << 21;
 
-/// Series: `multiply_adds`, `multiply_adds_float` (as many as the pairs have, at the machine's peak), `read_far`
-/// (as many bytes as the obstacles of `batch_far` have), `single_call` (the polar form, every pair by a call of its own),
-/// `test_points_12`, `test_points_safe` (vectorised, NM = 12 and safe_test_points()) and the detectors by
-/// their names.
+/// Series:
+/// - `multiply_adds`, `multiply_adds_float`: as many as the pairs have, at the machine's peak; `read_far`: as many
+///   bytes as the obstacles of `batch_far` have;
+/// - `batch`, `batch_float`, `batch_far`, `batch_float_far`: the batched test, answers as masks;
+/// - `single_call`: the polar form, every pair by a call of its own;
+/// - `configurations`: one of 1024 configurations of an arm of 7 links, from its joint angles, in float;
+/// - `test_points_12`, `test_points_safe`: vectorised, NM = 12 and that of safe_test_points();
+/// - other detectors by their names.
 /// @param sweep  named, empty
 /// @throws std::runtime_error if answers are wrong
 void measure_speed_of_pairs(const ContestSettings& settings, int verified_pairs, Sweep& sweep);

@@ -88,6 +88,25 @@ TEST(ClaimsFile, IsReadAsItStands) {
   EXPECT_EQ(claims[1].expected, Verdict::kUndecided);
 }
 
+TEST(ClaimsFile, ANumberMayDependOnTheVectorInstructions) {
+  const TestDirectory directory;
+  std::vector<Claim> claims = load_claims(
+      directory.write("c.yaml", with(kGood, "value: 25", "value: {AVX3: 400, AVX2: 200}")));
+  const Bound& bound = claims[0].as_stated[0];
+  EXPECT_EQ(text_of(bound), "== 400 with AVX3, 200 with AVX2");
+  EXPECT_FALSE(bound.not_here.empty()) << "as long as nothing is chosen";
+  choose_numbers(claims, "AVX3");
+  EXPECT_EQ(bound.lower, 400);
+  EXPECT_EQ(bound.upper, 400);
+  EXPECT_EQ(bound.not_here, "");
+  choose_numbers(claims, "AVX2");
+  EXPECT_EQ(bound.lower, 200);
+  choose_numbers(claims, "SSE4");
+  EXPECT_EQ(bound.not_here,
+            "vector instructions are SSE4, bounds are == 400 with AVX3, 200 with AVX2");
+  EXPECT_EQ(claims[0].corrected->bounds[0].not_here, "") << "a plain number holds everywhere";
+}
+
 struct BadFile {
   const char* part;
   const char* by;
@@ -116,6 +135,11 @@ TEST(ClaimsFile, IsRefusedWithLineKeyExpectedAndFound) {
        "c.yaml:8: claims[0].as_stated[0].is: expected <, <=, >, >=, == or within, got \"=\""},
       {"value: 25", "value: many",
        "c.yaml:8: claims[0].as_stated[0].value: expected a number, got many"},
+      {"value: 25", "value: {AVX3: 400, SSE4: 100}",
+       "c.yaml:8: claims[0].as_stated[0].value.SSE4: expected a known key, the nearest being AVX3, "
+       "got SSE4"},
+      {"value: 25", "value: {AVX3: many}",
+       "c.yaml:8: claims[0].as_stated[0].value.AVX3: expected a number, got many"},
       {", value: 25", "", "c.yaml:8: claims[0].as_stated[0].value: expected a number, got nothing"},
       {"from: 1, to: 2", "from: 3, to: 2",
        "c.yaml:11: claims[0].corrected.bounds[0].to: expected at least 3, got 2"},

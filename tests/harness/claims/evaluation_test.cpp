@@ -23,10 +23,12 @@ struct Evaluation {
 };
 
 Evaluation evaluation_of(const std::string& text, const std::vector<Sweep>& sweeps = {},
-                         const TimesState& times = {}) {
+                         const TimesState& times = {},
+                         const std::string& instruction_set = "AVX3") {
   const TestDirectory directory;
-  const std::vector<Claim> claims =
+  std::vector<Claim> claims =
       load_claims(directory.write("c.yaml", "schema: bqsa-claims/1\nclaims:\n" + text));
+  choose_numbers(claims, instruction_set);
   Laboratory laboratory({.scenarios = BQSA_SOURCE_DIR "/scenarios"}, methods(), sweeps);
   const std::vector<EvaluatedClaim> all = evaluate(claims, laboratory, times);
   return {all.back().verdict, all.back().standing, all.back().reason, any_broken(all)};
@@ -72,6 +74,39 @@ TEST(Evaluation, AVerdictThatIsNotExpectedBreaks) {
   EXPECT_TRUE(of("24", "confirmed").broken);
   EXPECT_TRUE(of("25", "refuted").broken) << "better than expected is news, too";
   EXPECT_EQ(of("24", "confirmed").standing, Standing::kBroken);
+}
+
+TEST(Evaluation, AMachineWithoutTheInstructionsDecidesNothing) {
+  const auto of = [](const char* bounds, const char* set, const char* expected) {
+    return evaluation_of(
+        claim("{name: multiplications}", bounds, fmt::format("expected: {}", expected)), {}, {},
+        set);
+  };
+  const char* by_set = "{figure: total, is: '==', value: {AVX3: 25, AVX2: 24}}";
+  EXPECT_EQ(of(by_set, "AVX3", "confirmed").verdict, Verdict::kConfirmed);
+  EXPECT_EQ(of(by_set, "AVX2", "confirmed").verdict, Verdict::kRefuted);
+  EXPECT_TRUE(of(by_set, "AVX2", "confirmed").broken);
+  for (const char* expected : {"confirmed", "refuted"}) {
+    const Evaluation one = of(by_set, "SSE4", expected);
+    EXPECT_EQ(one.verdict, Verdict::kUndecided);
+    EXPECT_EQ(one.standing, Standing::kNotDecidedHere);
+    EXPECT_EQ(one.reason, "vector instructions are SSE4, bounds are == 25 with AVX3, 24 with AVX2");
+    EXPECT_FALSE(one.broken) << "expected compares only where it can be decided";
+  }
+  // What does not depend on instructions fails on every machine.
+  const Evaluation failed =
+      of("{figure: total, is: '==', value: {AVX3: 25}}, {figure: total, is: '==', value: 3}",
+         "SSE4", "confirmed");
+  EXPECT_EQ(failed.verdict, Verdict::kRefuted);
+  EXPECT_TRUE(failed.broken);
+}
+
+TEST(Evaluation, WithoutTheOtherProgramNothingIsDecided) {
+  const Evaluation one =
+      evaluation_of(claim("{name: allocations}", "{figure: step, is: '==', value: 0}"));
+  EXPECT_EQ(one.verdict, Verdict::kUndecided);
+  EXPECT_EQ(one.standing, Standing::kNotDecidedHere);
+  EXPECT_EQ(one.reason, "count_allocations was not built (target companions)");
 }
 
 TEST(Evaluation, AnotherSceneGivesAnotherVerdict) {

@@ -9,6 +9,8 @@
 #include "harness/judge/exact_distance.hpp"
 #include "harness/measuring/bystanders.hpp"
 #include "harness/measuring/detector.hpp"
+#include "harness/measuring/speed_of_pairs.hpp"
+#include "harness/measuring/speed_of_steps.hpp"
 #include "harness/methods.hpp"
 
 namespace bqsa::harness {
@@ -63,6 +65,16 @@ TEST(RunSweep, MeasuresEveryReactiveMethodAmongBystanders) {
   EXPECT_TRUE(sweep.series[0].paper_seconds.empty());
 }
 
+class SpeedSweep : public testing::TestWithParam<std::string_view> {};
+INSTANTIATE_TEST_SUITE_P(Names, SpeedSweep, testing::Values(kSpeedOfPairs, kSpeedOfSteps));
+
+TEST_P(SpeedSweep, MeasuresAllItsContestantsAtOneSize) {
+  const Sweep sweep = run_sweep(GetParam(), least());
+  expect_complete(sweep, 1);
+  EXPECT_GE(sweep.series.size(), 10u);
+  EXPECT_TRUE(is_at_one_size(sweep.name));
+}
+
 TEST(RunSweep, RefusesASweepThatThereIsNot) {
   EXPECT_THROW(run_sweep("plane", least()), InputError);
 }
@@ -76,7 +88,7 @@ TEST_P(Bystanders, StandNearTheMotionButOutOfReach) {
   const std::vector<Obstacle> bystanders = draw_bystanders(lonely, 60);
   ASSERT_EQ(bystanders.size(), 60u);
   std::vector<double> nearest(60, 1e9);
-  ControlLoop loop(methods().front(), lonely);  // `none`
+  ControlLoop loop(with_defaults(methods().front()), lonely);  // `none`
   for (int tick = 0; tick <= 3 * kBystanderPeriod; ++tick, loop.run(1)) {
     ChainPose pose;
     lonely.chain.forward(loop.q(), pose);
@@ -126,7 +138,7 @@ TEST_P(Bystanders, AreAllLookedAt) {
   crowded.obstacles = draw_bystanders(lonely, 40);
   for (const MethodEntry& entry : methods()) {
     if (entry.name != "bqsa" && entry.name != "test_point") continue;
-    ControlLoop loop(entry, crowded);
+    ControlLoop loop(with_defaults(entry), crowded);
     loop.run(10);
     const WorkCounters& work = loop.counters();
     const auto pairs = static_cast<std::uint64_t>(40 * std::ssize(lonely.chain.links()));
