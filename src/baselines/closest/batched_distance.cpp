@@ -8,7 +8,7 @@
 namespace bqsa::baselines {
 namespace {
 
-constexpr int kBlock = EllipsoidBlocks::kBlock;
+constexpr int kBlock = kEllipsoidBlock;
 
 struct Redo {
   const PointArrays& starts;
@@ -35,7 +35,7 @@ void redo(void* context, int segment, int first, unsigned lanes) {
 
 EllipsoidBlocks::EllipsoidBlocks(std::span<const Ellipsoid> shapes)
     : shapes_(shapes.begin(), shapes.end()),
-      numbers_(static_cast<std::size_t>(blocks() * kRows * kBlock)) {
+      numbers_(static_cast<std::size_t>(blocks() * kEllipsoidRows * kBlock)) {
   for (int j = 0; j < count(); ++j) set(j, shapes_[static_cast<std::size_t>(j)]);
 }
 
@@ -43,14 +43,27 @@ void EllipsoidBlocks::set(int j, const Ellipsoid& shape) {
   assert(j >= 0 && j < count());
   shapes_[static_cast<std::size_t>(j)] = shape;
   const Eigen::Vector3d squares = shape.semi_axes().cwiseAbs2();
-  Eigen::Matrix<double, kRows, 1> rows;
+  Eigen::Matrix<double, kEllipsoidRows, 1> rows;
   rows << shape.center(), shape.rotation().reshaped(), squares, squares.cwiseInverse(),
       shape.semi_axes().maxCoeff();
   const int end = j + 1 == count() ? blocks() * kBlock : j + 1;
   for (int column = j; column < end; ++column) {
-    double* const block = &numbers_[static_cast<std::size_t>(column / kBlock * kRows * kBlock)];
-    for (int row = 0; row < kRows; ++row) block[row * kBlock + column % kBlock] = rows(row);
+    double* const block =
+        &numbers_[static_cast<std::size_t>(column / kBlock * kEllipsoidRows * kBlock)];
+    for (int row = 0; row < kEllipsoidRows; ++row)
+      block[row * kBlock + column % kBlock] = rows(row);
   }
+}
+
+int EllipsoidBlocks::blocks() const { return (count() + kBlock - 1) / kBlock; }
+
+DistanceTable::DistanceTable(int segment_count, const EllipsoidBlocks& ellipsoids)
+    : segments(segment_count),
+      distance(static_cast<std::size_t>(segment_count * ellipsoids.blocks() * kBlock)),
+      t(distance.size()) {}
+
+std::size_t DistanceTable::index(int i, int j) const {
+  return static_cast<std::size_t>((j / kBlock * segments + i) * kBlock + j % kBlock);
 }
 
 void segment_distances(const PointArrays& starts, const PointArrays& ends,

@@ -11,14 +11,13 @@ HWY_BEFORE_NAMESPACE();
 namespace bqsa::baselines::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr int kBlock = 8;  // EllipsoidBlocks::kBlock and kRows
-constexpr int kRows = 19;
 constexpr int kMaxSteps = 16;
-constexpr double kEnough = 1e-12;  // error that may be left, of the largest semi-axis
-constexpr double kProven = 1e-11;  // gap between the bounds, of the lengths in play
-constexpr double kTiny = 1e-300;
+constexpr double kEnough =
+    3e-6;  // step that may be left, as part of l + a_min²: errors are its square
+constexpr double kProven = 1e-10;     // gap between the bounds, as part of the lengths in play
+constexpr double kSmallest = 1e-300;  // distance of what does not meet [m]
 
-using Tag = hn::CappedTag<double, kBlock>;
+using Tag = hn::CappedTag<double, kEllipsoidBlock>;
 using Vec = hn::Vec<Tag>;
 using Lanes = hn::Mask<Tag>;
 
@@ -30,8 +29,13 @@ HWY_INLINE Vec dot(const Vec3& a, const Vec3& b) {
   return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
 }
 
+/// Coordinate by coordinate.
 HWY_INLINE Vec3 times(const Vec3& a, const Vec3& b) {
   return {hn::Mul(a.x, b.x), hn::Mul(a.y, b.y), hn::Mul(a.z, b.z)};
+}
+
+HWY_INLINE Vec3 scaled(const Vec3& a, Vec s) {
+  return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)};
 }
 
 /// a + s b
@@ -40,155 +44,217 @@ HWY_INLINE Vec3 along(const Vec3& a, Vec s, const Vec3& b) {
 }
 
 HWY_INLINE Vec unit_clamp(Vec t) {
-  const Tag d;
-  return hn::Min(hn::Max(t, hn::Zero(d)), hn::Set(d, 1.0));
+  return hn::Min(hn::Max(t, hn::Zero(Tag())), hn::Set(Tag(), 1.0));
 }
 
-/// The ellipsoids of a vector, as they lie in a block.
-struct Ellipsoids {
-  Vec3 center;
-  Vec3 axis_x, axis_y, axis_z;  // in W
-  Vec3 squares, reciprocals;
-  Vec largest;  // semi-axis
+/// A segment p + t d against a vector of ellipsoids, each in its axes.
+struct Pairs {
+  Vec3 p, d;
+  Vec3 squares;  // a²
+  Vec largest;   // semi-axis
+  Vec without;   // 1 for a segment without length, which makes divisors of 0, else 0
+  Vec deepest;   // t of the deepest point
+  Lanes meet;
 };
 
-HWY_INLINE Vec3 load3(const double* row) {
-  const Tag d;
-  return {hn::LoadU(d, row), hn::LoadU(d, row + kBlock), hn::LoadU(d, row + 2 * kBlock)};
-}
-
-HWY_INLINE Ellipsoids load(const double* block) {
-  constexpr int kVector = 3 * kBlock;
-  return {load3(block),
-          load3(block + kVector),
-          load3(block + 2 * kVector),
-          load3(block + 3 * kVector),
-          load3(block + 4 * kVector),
-          load3(block + 5 * kVector),
-          hn::LoadU(Tag(), block + 6 * kVector)};
-}
-
-/// What belongs to one multiplier l, in the letters of the scalar routine.
+/// What belongs to one multiplier l, in the letters of the scalar routine, but free of divisions: the
+/// weights w are multiplied by det = (a_1² + l) (a_2² + l) (a_3² + l), points of the segment by `whole`.
 struct DualPoint {
-  Vec t;
-  Lanes free;
-  Vec3 x, m, n;     // point of the segment, normal W x, and A W x
-  Vec secular;      // S
-  Vec turn_whole;   // turn / whole: how t moves with l
-  Vec half_slope;   // -S' / 2
+  Vec whole;       // dᵀ w d; of det
+  Vec t;           // of whole
+  Vec3 x, m, n;    // the point at t, w x, and A w x; of whole, m and n of det too
+  Vec secular;     // S; of scale²
+  Vec scale;       // det whole
+  Vec turn;        // mᵀ w d, 0 where t is at an end; of det scale
+  Vec half_slope;  // -S' / 2; of det whole scale²
 };
 
-HWY_INLINE DualPoint at(Vec l, const Vec3& w, const Vec3& p, const Vec3& d, const Vec3& squares) {
-  const Tag tag;
-  const Vec3 e = times(w, d);
-  const Vec whole = hn::Max(dot(e, d), hn::Set(tag, kTiny));
-  const Vec inverse = hn::Div(hn::Set(tag, 1.0), whole);
-  const Vec unclamped = hn::Neg(hn::Mul(dot(e, p), inverse));
+/// How far the search has come.
+struct Search {
+  Vec l;
   DualPoint point;
-  point.t = unit_clamp(unclamped);
-  point.free = hn::Eq(point.t, unclamped);
-  point.x = along(p, point.t, d);
+  Vec root;  // of point.secular
+  Vec step;  // that Newton's method takes from l
+  bool enough;
+};
+
+HWY_INLINE Vec3 load(const double* row) {
+  constexpr int kNext = kEllipsoidBlock;
+  return {hn::LoadU(Tag(), row), hn::LoadU(Tag(), row + kNext), hn::LoadU(Tag(), row + 2 * kNext)};
+}
+
+/// Decides whether they meet, and starts the search at the multiplier of a point whose nearest point on
+/// the ellipsoid is on the way from the deepest point to the centre: exact for spheres.
+HWY_INLINE void start(const DistancePass& pass, int segment, const double* ellipsoids, Pairs& pairs,
+                      Search& search) {
+  const Tag tag;
+  constexpr int kThreeRows = 3 * kEllipsoidBlock;
+  const Vec3 center = load(ellipsoids);
+  const Vec3 axis_x = load(ellipsoids + kThreeRows);
+  const Vec3 axis_y = load(ellipsoids + 2 * kThreeRows);
+  const Vec3 axis_z = load(ellipsoids + 3 * kThreeRows);
+  pairs.squares = load(ellipsoids + 4 * kThreeRows);
+  const Vec3 reciprocals = load(ellipsoids + 5 * kThreeRows);
+  pairs.largest = hn::LoadU(tag, ellipsoids + 6 * kThreeRows);
+
+  const PointArrays& a = *pass.starts;
+  const PointArrays& b = *pass.ends;
+  const double x = b.x[segment] - a.x[segment];
+  const double y = b.y[segment] - a.y[segment];
+  const double z = b.z[segment] - a.z[segment];
+  const Vec3 from = {hn::Sub(hn::Set(tag, a.x[segment]), center.x),
+                     hn::Sub(hn::Set(tag, a.y[segment]), center.y),
+                     hn::Sub(hn::Set(tag, a.z[segment]), center.z)};
+  const Vec3 by = {hn::Set(tag, x), hn::Set(tag, y), hn::Set(tag, z)};
+  pairs.p = {dot(axis_x, from), dot(axis_y, from), dot(axis_z, from)};
+  pairs.d = {dot(axis_x, by), dot(axis_y, by), dot(axis_z, by)};
+  pairs.without = hn::Set(tag, x == 0 && y == 0 && z == 0 ? 1.0 : 0.0);
+
+  const Vec3 e = times(reciprocals, pairs.d);
+  const Vec whole = hn::Add(dot(e, pairs.d), pairs.without);
+  pairs.deepest = unit_clamp(hn::Neg(hn::Div(dot(e, pairs.p), whole)));
+  const Vec3 point = along(pairs.p, pairs.deepest, pairs.d);
+  const Vec3 m = times(reciprocals, point);
+  const Vec secular = dot(m, point);
+  const Vec one = hn::Set(tag, 1.0);
+  pairs.meet = hn::Le(secular, one);
+  search.enough = false;
+  search.l =
+      hn::Mul(hn::Sub(hn::Sqrt(secular), one), hn::Sqrt(hn::Div(dot(point, point), dot(m, m))));
+}
+
+HWY_INLINE DualPoint at(Vec l, const Pairs& pairs) {
+  const Vec x = hn::Add(pairs.squares.x, l);
+  const Vec y = hn::Add(pairs.squares.y, l);
+  const Vec z = hn::Add(pairs.squares.z, l);
+  const Vec3 w = {hn::Mul(y, z), hn::Mul(x, z), hn::Mul(x, y)};
+  const Vec3 e = times(w, pairs.d);
+  DualPoint point;
+  point.whole = hn::Add(dot(e, pairs.d), pairs.without);
+  const Vec unclamped = hn::Neg(dot(e, pairs.p));
+  point.t = hn::Min(hn::Max(unclamped, hn::Zero(Tag())), point.whole);
+  point.x = along(scaled(pairs.p, point.whole), point.t, pairs.d);
   point.m = times(w, point.x);
-  point.n = times(squares, point.m);
-  const Vec3 nm = times(point.n, point.m);
-  point.secular = hn::Add(nm.x, hn::Add(nm.y, nm.z));
-  const Vec turn = hn::IfThenElseZero(point.free, dot(point.m, e));
-  point.turn_whole = hn::Mul(turn, inverse);
-  point.half_slope = hn::MulAdd(hn::Mul(l, turn), point.turn_whole, dot(nm, w));
+  point.n = times(pairs.squares, point.m);
+  const Vec3 parts = times(point.n, point.m);
+  point.secular = hn::Add(parts.x, hn::Add(parts.y, parts.z));
+  point.scale = hn::Mul(point.whole, hn::Mul(x, w.x));
+  point.turn = hn::IfThenElseZero(hn::Eq(point.t, unclamped), dot(point.m, e));
+  const Vec of_free_t = hn::Mul(hn::Mul(l, point.turn), point.turn);
+  point.half_slope = hn::MulAdd(point.whole, dot(parts, w), of_free_t);
   return point;
 }
 
-/// 1 / (squares + l), by one division.
-HWY_INLINE Vec3 weights(Vec l, const Vec3& squares) {
-  const Vec x = hn::Add(squares.x, l), y = hn::Add(squares.y, l), z = hn::Add(squares.z, l);
-  const Vec xy = hn::Mul(x, y);
-  const Vec inverse = hn::Div(hn::Set(Tag(), 1.0), hn::Mul(xy, z));
-  const Vec z_inverse = hn::Mul(z, inverse);
-  return {hn::Mul(y, z_inverse), hn::Mul(x, z_inverse), hn::Mul(xy, inverse)};
+/// A step of Newton's method on S^(-1/2): S (sqrt(S) - 1) / (-S' / 2), in which the scales cancel.
+HWY_INLINE void look(const Pairs& pairs, Search& search) {
+  const Tag tag;
+  search.point = at(search.l, pairs);
+  const DualPoint& point = search.point;
+  search.root = hn::Sqrt(point.secular);
+  const Vec excess = hn::Sub(search.root, point.scale);
+  search.step = hn::Div(hn::Mul(excess, point.secular), point.half_slope);
+  const Vec thinnest = hn::Min(pairs.squares.x, hn::Min(pairs.squares.y, pairs.squares.z));
+  const Vec small = hn::Mul(hn::Set(tag, kEnough), hn::Add(search.l, thinnest));
+  search.enough = hn::AllTrue(tag, hn::Or(pairs.meet, hn::Le(hn::Abs(search.step), small)));
 }
 
-HWY_INLINE void solve(const DistancePass& pass, const Ellipsoids& shapes, int i, int first,
-                      double* distance, double* t) {
+HWY_INLINE void go_on(Search& search) {
+  const Vec least = hn::Mul(search.l, hn::Set(Tag(), 0.125));
+  search.l = hn::Max(hn::Add(search.l, search.step), least);
+}
+
+/// The distance of x to the surface point A m / |A^(1/2) m| is too large by the square of the last step.
+/// It is proven by the plane across m, from which the segment and the ellipsoid are on either side. t
+/// moves along with the last step.
+/// @return the lanes in which it is proven
+HWY_INLINE Lanes answer(const Pairs& pairs, const Search& search, double* distance, double* t) {
   const Tag tag;
-  const Vec one = hn::Set(tag, 1.0);
-  const Vec zero = hn::Zero(tag);
-  const PointArrays& a = *pass.starts;
-  const PointArrays& b = *pass.ends;
-  const Vec3 from = {hn::Sub(hn::Set(tag, a.x[i]), shapes.center.x),
-                     hn::Sub(hn::Set(tag, a.y[i]), shapes.center.y),
-                     hn::Sub(hn::Set(tag, a.z[i]), shapes.center.z)};
-  const Vec3 by = {hn::Set(tag, b.x[i] - a.x[i]), hn::Set(tag, b.y[i] - a.y[i]),
-                   hn::Set(tag, b.z[i] - a.z[i])};
-  const Vec3 p = {dot(shapes.axis_x, from), dot(shapes.axis_y, from), dot(shapes.axis_z, from)};
-  const Vec3 d = {dot(shapes.axis_x, by), dot(shapes.axis_y, by), dot(shapes.axis_z, by)};
-  const Vec3& squares = shapes.squares;
-
-  const DualPoint deepest = at(zero, shapes.reciprocals, p, d, squares);
-  const Lanes meet = hn::Le(deepest.secular, one);
-
-  const Vec3 ax = times(squares, times(deepest.x, deepest.x));
-  const Vec norm = hn::Sqrt(hn::Add(ax.x, hn::Add(ax.y, ax.z)));
-  Vec l = hn::Max(hn::NegMulAdd(shapes.largest, shapes.largest, norm), zero);
-#ifdef START
-  START
-#endif
-  DualPoint point;
-  Vec root, step, squared_length;
-  Lanes done;
-  for (int k = 0;; ++k) {
-#ifdef COUNT
-    COUNT
-#endif
-    point = at(l, weights(l, squares), p, d, squares);
-    root = hn::Sqrt(point.secular);
-    step = hn::Div(hn::Mul(hn::Sub(root, one), point.secular), point.half_slope);
-    squared_length = dot(point.m, point.m);
-    const Vec newton = hn::Max(hn::Add(l, step), hn::Mul(l, hn::Set(tag, 0.125)));
-    // The error is about step² / (l + a_min²), and moves the surface by that times |m|.
-    const Vec bound =
-        hn::Mul(hn::Mul(hn::Set(tag, kEnough), shapes.largest),
-                hn::Add(newton, hn::Min(squares.x, hn::Min(squares.y, squares.z))));
-    const Vec squared = hn::Mul(step, step);
-    done = hn::Or(meet, hn::Le(hn::Mul(hn::Mul(squared, squared), squared_length),
-                               hn::Mul(bound, bound)));
-    if (hn::AllTrue(tag, done) || k == kMaxSteps) break;
-    l = newton;
-  }
-
-  // The plane across m has the segment and the ellipsoid on its two sides.
-  const Vec length = hn::Sqrt(squared_length);
-  const Vec slip = dot(point.m, d);
-  const Vec before = hn::Neg(hn::Mul(point.t, slip));
-  const Vec beyond = hn::NegMulAdd(point.t, slip, slip);
-  const Vec least = hn::Add(dot(point.m, point.x), hn::Min(before, beyond));
-  const Vec low = hn::Div(hn::Sub(least, root), length);
-  const Vec inverse_root = hn::Div(one, root);
-  const Vec3 apart = {hn::NegMulAdd(point.n.x, inverse_root, point.x.x),
-                      hn::NegMulAdd(point.n.y, inverse_root, point.x.y),
-                      hn::NegMulAdd(point.n.z, inverse_root, point.x.z)};
+  const DualPoint& point = search.point;
+  const Vec inverse = hn::Div(hn::Set(tag, 1.0), hn::Mul(point.whole, search.root));
+  const Vec inverse_whole = hn::Mul(inverse, search.root);
+  const Vec inverse_root = hn::Mul(inverse, point.whole);
+  const Vec3 x = scaled(point.x, inverse_whole);
+  const Vec3 apart = along(x, hn::Neg(inverse_root), point.n);
   const Vec high = hn::Sqrt(dot(apart, apart));
-  const Lanes proven = hn::Or(meet, hn::Le(hn::Sub(high, low), hn::Mul(hn::Set(tag, kProven), hn::Add(high, shapes.largest))));
-  hn::StoreU(hn::IfThenZeroElse(meet, hn::Max(high, hn::Set(tag, kTiny))), tag, distance);
-  hn::StoreU(hn::IfThenElse(meet, deepest.t, unit_clamp(hn::MulAdd(point.turn_whole, step, point.t))), tag, t);
-  if (!hn::AllTrue(tag, proven)) {
+  const Vec here = hn::Mul(point.t, inverse_whole);
+  const Vec moved = hn::Mul(hn::Mul(point.turn, search.step), hn::Mul(inverse_whole, inverse_root));
+  hn::StoreU(hn::IfThenZeroElse(pairs.meet, hn::Max(high, hn::Set(tag, kSmallest))), tag, distance);
+  hn::StoreU(hn::IfThenElse(pairs.meet, pairs.deepest, unit_clamp(hn::Add(here, moved))), tag, t);
+
+  const Vec slope = dot(point.m, pairs.d);  // 0 but for rounding where t is free
+  const Vec to_start = hn::Neg(hn::Mul(here, slope));
+  const Vec to_end = hn::NegMulAdd(here, slope, slope);
+  const Vec least = hn::Add(dot(point.m, x), hn::Min(to_start, to_end));
+  const Vec gap = hn::Sub(least, search.root);  // of |m|
+  const Vec length = hn::Sqrt(dot(point.m, point.m));
+  const Vec allowed = hn::Mul(hn::Set(tag, kProven), hn::Add(high, pairs.largest));
+  return hn::Or(pairs.meet, hn::Le(hn::Mul(hn::Sub(high, allowed), length), gap));
+}
+
+constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag()));
+
+/// Which segment is asked against which vector of ellipsoids. Their order is that of the answers, but
+/// for vectors shorter than a block.
+struct Place {
+  int segment;
+  int block;
+  int lane;
+
+  HWY_INLINE int first() const { return block * kEllipsoidBlock + lane; }
+
+  HWY_INLINE void go_on(int segments) {
+    if ((lane += kLanes) < kEllipsoidBlock) return;
+    lane = 0;
+    if (++segment < segments) return;
+    segment = 0;
+    ++block;
+  }
+};
+
+/// So many searches side by side: each alone would wait for its own results most of the time.
+template <int Together>
+HWY_INLINE void solve(const DistancePass& pass, Place& next) {
+  const Tag tag;
+  Place places[Together];
+  Pairs pairs[Together];
+  Search searches[Together];
+  for (int k = 0; k < Together; ++k) {
+    places[k] = next;
+    next.go_on(pass.starts->count);
+    const double* const block =
+        pass.ellipsoids + places[k].block * kEllipsoidRows * kEllipsoidBlock;
+    start(pass, places[k].segment, block + places[k].lane, pairs[k], searches[k]);
+  }
+  for (int step = 0;; ++step) {
+    bool enough = true;
+    for (int k = 0; k < Together; ++k) {
+      if (searches[k].enough) continue;
+      look(pairs[k], searches[k]);
+      enough = enough && searches[k].enough;
+    }
+    if (enough || step == kMaxSteps) break;
+    for (int k = 0; k < Together; ++k) {
+      if (!searches[k].enough) go_on(searches[k]);
+    }
+  }
+  for (int k = 0; k < Together; ++k) {
+    const Place& place = places[k];
+    const int at_pair =
+        (place.block * pass.starts->count + place.segment) * kEllipsoidBlock + place.lane;
+    const Lanes proven = answer(pairs[k], searches[k], pass.distance + at_pair, pass.t + at_pair);
+    if (hn::AllTrue(tag, proven)) continue;
     uint8_t bits[8] = {};
     hn::StoreMaskBits(tag, hn::Not(proven), bits);
-    pass.redo(pass.context, i, first, bits[0]);
+    pass.redo(pass.context, place.segment, place.first(), bits[0]);
   }
 }
 
 void distance_pass(const DistancePass& pass) {
-  constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag()));
-  const int segments = pass.starts->count;
-  for (int block = 0; block < pass.blocks; ++block) {
-    for (int lane = 0; lane < kBlock; lane += kLanes) {
-      const Ellipsoids shapes = load(pass.ellipsoids + block * kRows * kBlock + lane);
-      for (int i = 0; i < segments; ++i) {
-        const int at_pair = (block * segments + i) * kBlock + lane;
-        solve(pass, shapes, i, block * kBlock + lane, pass.distance + at_pair, pass.t + at_pair);
-      }
-    }
-  }
+  constexpr int kTogether = 4;
+  int left = pass.blocks * pass.starts->count * (kEllipsoidBlock / kLanes);
+  Place next = {0, 0, 0};
+  for (; left >= kTogether; left -= kTogether) solve<kTogether>(pass, next);
+  for (; left > 0; --left) solve<1>(pass, next);
 }
 
 }  // namespace bqsa::baselines::HWY_NAMESPACE

@@ -6,17 +6,24 @@
 
 namespace bqsa::baselines {
 
+/// Ellipsoids that lie side by side: as many as the widest vector has doubles.
+inline constexpr int kEllipsoidBlock = 8;
+
+/// Numbers an ellipsoid, a row of the block each: centre, rotation column by column, squared semi-axes,
+/// their reciprocals, largest semi-axis.
+inline constexpr int kEllipsoidRows = 19;
+
 /// All segments against all blocks of ellipsoids.
 struct DistancePass {
   const PointArrays* starts;
   const PointArrays* ends;
-  const double* ellipsoids;  ///< EllipsoidBlocks::data
+  const double* ellipsoids;  ///< block by block, row by row
   int blocks;
-  double* distance;  ///< of a DistanceTable [m]
-  double* t;         ///< of a DistanceTable
+  double* distance;  ///< block by block, segment by segment [m]
+  double* t;         ///< likewise
 
-  /// Asked, with `context`, for what the loop could not prove: ellipsoids `first` to `first + 31` of
-  /// which the bit in `lanes` is set.
+  /// Called, with `context`, for what the loop cannot prove: ellipsoid first + k if bit k of `lanes` is
+  /// set, counted without regard to blocks.
   void (*redo)(void* context, int segment, int first, unsigned lanes);
   void* context;
 };
