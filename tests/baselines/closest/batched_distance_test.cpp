@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "baselines/closest/segment_ellipsoid_distance.hpp"
-#include "bqsa/batch/instruction_set.hpp"
 #include "support/allocation_guard.hpp"
 #include "support/distance_oracle.hpp"
+#include "support/instruction_set_test.hpp"
 #include "support/sampling.hpp"
 #include "support/segment_cases.hpp"
 
@@ -30,17 +30,9 @@ using test_support::uniform;
 
 constexpr double kPromised = 1e-9;  // [m]
 
-class BatchedDistance : public testing::TestWithParam<InstructionSet> {
- protected:
-  void SetUp() override { use_instruction_set(GetParam().name); }
-  void TearDown() override { use_instruction_set(instruction_sets().front().name); }
-};
-
-INSTANTIATE_TEST_SUITE_P(All, BatchedDistance,
-                         testing::ValuesIn(instruction_sets().begin(), instruction_sets().end()),
-                         [](const testing::TestParamInfo<InstructionSet>& info) {
-                           return std::string(info.param.name);
-                         });
+class BatchedDistance : public test_support::InstructionSetTest {};
+INSTANTIATE_TEST_SUITE_P(All, BatchedDistance, test_support::all_instruction_sets(),
+                         test_support::instruction_set_name);
 
 /// Segments by columns, and their distances to all shapes.
 struct Batch {
@@ -188,8 +180,11 @@ TEST_P(BatchedDistance, TouchingIsMeeting) {
     const double x = 0.5 * k;
     a.row(k) << x - 0.25, 0.5, 0;  // tangent
     b.row(k) << x + 0.75, 0.5, 0;
-    if (k % 3 == 1) b.row(k) << x, 0.5, 0;               // ends there
-    if (k % 3 == 2) b.row(k) = a.row(k) << x, 0, 0.125;  // a point
+    if (k % 3 == 1) b.row(k) << x, 0.5, 0;  // ends there
+    if (k % 3 == 2) {
+      a.row(k) << x, 0, 0.125;  // a point
+      b.row(k) = a.row(k);
+    }
     const double gap = k % 3 == 2 ? 0 : std::numeric_limits<double>::epsilon();
     const double gap_z = k % 3 == 2 ? std::numeric_limits<double>::epsilon() : 0;
     beside_a.row(k) = a.row(k) + Eigen::RowVector3d(0, gap, gap_z);
@@ -213,7 +208,9 @@ TEST_P(BatchedDistance, FollowsAnEllipsoidThatMovesWithoutAllocating) {
   const AllocationGuard guard;
   for (const int j : {0, 7, 8, 18}) batch.ellipsoids.set(j, moved);
   batch.ask();
-  if (test_support::kCountsAllocations) EXPECT_EQ(guard.allocations(), 0u);
+  if (test_support::kCountsAllocations) {
+    EXPECT_EQ(guard.allocations(), 0u);
+  }
   for (int i = 0; i < 19; ++i) {
     for (int j = 0; j < 19; ++j) {
       const bool moves = j == 0 || j == 7 || j == 8 || j == 18;
