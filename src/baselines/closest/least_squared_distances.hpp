@@ -2,15 +2,9 @@
 /// The inner loop of the vectorised search, alone in its file with its own compiler options.
 #pragma once
 
-namespace bqsa::baselines {
+#include "baselines/closest/point_arrays.hpp"
 
-/// Points with their coordinates in separate arrays. In the plane z is not read.
-struct PointArrays {
-  const double* x;
-  const double* y;
-  const double* z;
-  int count;
-};
+namespace bqsa::baselines {
 
 /// For every point of `from` the least squared distance to any point of `to`.
 void least_squared_distances_2d(const PointArrays& from, const PointArrays& to, double* least);

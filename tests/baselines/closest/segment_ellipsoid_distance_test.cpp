@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <vector>
 
 #include "support/distance_oracle.hpp"
 #include "support/sampling.hpp"
+#include "support/segment_cases.hpp"
 
 namespace bqsa::baselines {
 namespace {
@@ -16,73 +16,17 @@ using test_support::DistanceOracle;
 using test_support::Generator;
 using test_support::log_uniform;
 using test_support::random_direction;
-using test_support::random_ellipsoid;
-using test_support::random_rotation;
-using test_support::random_vector;
-using test_support::surface_point;
+using test_support::random_segment_case;
+using test_support::random_shape;
+using test_support::SegmentCase;
 using test_support::uniform;
-
-struct Case {
-  Vector3d a, b;
-  Ellipsoid shape;
-
-  /// The largest length in play [m].
-  double size() const {
-    const Vector3d& c = shape.center();
-    return std::max({c.norm(), (a - c).norm(), (b - c).norm(), shape.semi_axes().maxCoeff()});
-  }
-};
-
-Vector3d outward_normal(const Ellipsoid& shape, const Vector3d& q) {
-  return (shape.quadratic_form() * (q - shape.center())).normalized();
-}
-
-/// Eggs, then needles and sheets of axis ratio up to 1e5.
-Ellipsoid random_shape(Generator& generator, int trial) {
-  if (trial % 2 == 0) return random_ellipsoid<3>(generator, 0.1, 0.5);
-  if (trial % 4 == 1) return random_ellipsoid<3>(generator, 1e-5, 1);
-  const double thin = log_uniform(generator, 1e-5, 1e-3);
-  Vector3d semi_axes(1, 1, thin);
-  if (trial % 8 == 3) semi_axes << thin, 0.7 * thin, 1;
-  return {random_vector<3>(generator, 1), semi_axes, random_rotation<3>(generator)};
-}
-
-/// One of eight families, the last six degenerate or close to it.
-Case random_case(Generator& generator, int trial) {
-  const Ellipsoid shape = random_shape(generator, trial / 8);
-  const Vector3d a = random_vector<3>(generator, 2);
-  const Vector3d q = surface_point<3>(shape, random_direction<3>(generator));
-  const Vector3d n = outward_normal(shape, q);
-  const Vector3d along = n.cross(random_direction<3>(generator)).normalized();
-  const double height = log_uniform(generator, 1e-12, 1e-1);
-  switch (trial % 8) {
-    case 0:
-      return {a, random_vector<3>(generator, 2), shape};
-    case 1:
-      return {a, a + 0.5 * random_direction<3>(generator), shape};
-    case 2:
-      return {a, a, shape};  // zero length
-    case 3:
-      return {q + height * n, q + height * n, shape};  // the same, close
-    case 4:
-      return {q + height * n - along, q + height * n + 0.3 * along, shape};  // tangent
-    case 5:
-      return {q + height * n, q + n + along, shape};  // leaves the surface
-    case 6:
-      return {a, q + height * n, shape};
-    default: {  // along an axis of the shape
-      const Vector3d axis = shape.rotation().col(trial / 8 % 3);
-      return {a, a + uniform(generator, -2, 2) * axis, shape};
-    }
-  }
-}
 
 constexpr double kRounding = 2e-15;  // of the lengths in play
 
 /// The two points and the plane between them prove each other, by convexity: the points are in their
 /// sets, so the distance is at most `distance`; the plane across `direction` has the sets on its two
 /// sides, so it is at least the gap that the plane sees.
-void expect_proven(const Case& c, const SegmentDistance& found, int trial) {
+void expect_proven(const SegmentCase& c, const SegmentDistance& found, int trial) {
   const double tolerance = kRounding * c.size();
   EXPECT_GE(found.s, 0) << trial;
   EXPECT_LE(found.s, 1) << trial;
@@ -104,7 +48,7 @@ TEST(SegmentDistance, IsProvenByItsOwnPointsAndPlane) {
   Generator generator(1);
   int apart = 0;
   for (int trial = 0; trial < 80000; ++trial) {
-    const Case c = random_case(generator, trial);
+    const SegmentCase c = random_segment_case(generator, trial);
     const SegmentDistance found = segment_distance(c.a, c.b, c.shape);
     if (found.distance == 0) continue;
     ++apart;
@@ -117,7 +61,7 @@ TEST(SegmentDistance, IsThatOfTheOracle) {
   Generator generator(2);
   int meeting = 0;
   for (int trial = 0; trial < 16000; ++trial) {
-    const Case c = random_case(generator, trial);
+    const SegmentCase c = random_segment_case(generator, trial);
     const auto expected = static_cast<double>(DistanceOracle(c.a, c.b, c.shape).distance());
     EXPECT_NEAR(segment_distance(c.a, c.b, c.shape).distance, expected, kRounding * c.size())
         << trial;
@@ -170,7 +114,7 @@ TEST(SegmentDistance, ThroughTheCenterStillHasADirection) {
 TEST(SegmentDistance, DoesNotDependOnTheOrderOfTheEnds) {
   Generator generator(4);
   for (int trial = 0; trial < 8000; ++trial) {
-    const Case c = random_case(generator, trial);
+    const SegmentCase c = random_segment_case(generator, trial);
     const SegmentDistance forth = segment_distance(c.a, c.b, c.shape);
     const SegmentDistance back = segment_distance(c.b, c.a, c.shape);
     EXPECT_NEAR(forth.distance, back.distance, kRounding * c.size()) << trial;
