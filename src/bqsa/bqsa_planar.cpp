@@ -22,7 +22,8 @@ void BqsaPlanar::prepare(const Problem& problem) {
     throw std::invalid_argument("planar BQSA needs a planar arm in standard form without a tool");
   }
   BackwardSearch::prepare(problem);
-  obstacles_.assign(problem.obstacles, counters_, problem.link_radius + problem.margin);
+  obstacles_.assign(problem.obstacles, counters_, problem.link_radius + problem.margin,
+                    certificate_.neighbours());
   release_.assign(problem, obstacles_, settings_, counters_);
   self_motion_.assign(problem.chain, counters_);
 }

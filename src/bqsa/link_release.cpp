@@ -100,10 +100,9 @@ bool LinkRelease<Dim>::gather(const ChainPose& pose, const JointBox& box, const 
   bool in_order = true;
   for (const Link& link : problem_->chain.links()) {
     bool have_jacobians = false;
-    for (int j = 0; j < obstacles_->size(); ++j) {
-      const auto [distance, t, normal] = obstacles_->proximity(pose, link, j);
+    const auto meet = [&](int j, const typename ObstacleField<Dim>::Proximity& near) {
+      const auto& [distance, t, normal] = near;
       const double missing = obstacles_->distance() - distance;
-      if (missing < -settings_->contact_band) continue;
       if (missing >= 0) in_order = false;
       if (!have_jacobians) {
         problem_->chain.jacobian(pose, link.start, J_start);
@@ -113,7 +112,8 @@ bool LinkRelease<Dim>::gather(const ChainPose& pose, const JointBox& box, const 
       }
       add(link.number, j, missing + 0.1 * settings_->safety_offset,
           (1 - t) * (J_start.transpose() * normal) + t * (J_end.transpose() * normal));
-    }
+    };
+    obstacles_->visit_near(pose, link, settings_->contact_band, meet);
   }
   for (int j = 0; j < problem_->chain.joints(); ++j) {
     const JointVector e = JointVector::Unit(problem_->chain.joints(), j);

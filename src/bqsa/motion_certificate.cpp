@@ -40,11 +40,19 @@ void MotionCertificate::assign(const Problem& problem, WorkCounters& counters) {
   problem_ = &problem;
   clearance_ = problem.link_radius + problem.margin;
   counters_ = &counters;
-  const std::size_t all = problem.chain.links().size() * problem.obstacles.size();
-  pairs_.reserve(all * (kMaxHalvings + 2));
+  neighbours_ = std::make_shared<NeighbourLists>(std::make_shared<ObstacleIndex>(problem.obstacles),
+                                                 FreeBy::kSpace, counters);
+  const SerialChain& chain = problem.chain;
+  reach_ = 0;
+  for (int j = 0; j < chain.joints(); ++j) {
+    for (int k = 0; k < chain.points(); ++k) reach_ = std::max(reach_, chain.reach(j, k));
+  }
+  const std::size_t all = chain.links().size() * problem.obstacles.size();
+  pairs_.reserve(std::min<std::size_t>(all * (kMaxHalvings + 1), 4096));
   motions_.clear();
-  for (const Obstacle& obstacle : problem.obstacles) {
-    motions_.push_back(motion_of(obstacle.at(0), obstacle.at(0)));
+  for (const int j : neighbours_->index()->movers()) {
+    const Ellipsoid& shape = problem.obstacles[static_cast<std::size_t>(j)].at(0);
+    motions_.push_back({0, motion_of(shape, shape)});
   }
 }
 
@@ -63,30 +71,70 @@ MotionCertificate::Result MotionCertificate::certify(int tick, const JointVector
   const SerialChain& chain = problem_->chain;
   q0_ = q0;
   dq_ = q1 - q0;
+  if (is_clear(tick, pose0, pose1)) return {};
   for (int k = 0; k < chain.points(); ++k) {
     bounds_[static_cast<std::size_t>(k)] = bounds_of(chain, dq_, k);
   }
-  for (std::size_t j = 0; j < motions_.size(); ++j) {
-    const Obstacle& obstacle = problem_->obstacles[j];
-    if (!obstacle.moves()) continue;
-    assert(0 < tick && static_cast<std::size_t>(tick) < obstacle.motion.size());
-    motions_[j] = motion_of(obstacle.at(tick - 1), obstacle.at(tick));
-  }
   pairs_.clear();
+  const Part all{0, 1, pose0, pose1};
   for (int i = 0; i < static_cast<int>(chain.links().size()); ++i) {
     const Link& link = chain.links()[static_cast<std::size_t>(i)];
-    for (int j = 0; j < static_cast<int>(problem_->obstacles.size()); ++j) {
-      pairs_.push_back({i, j, clearance_of(link, j, pose0)});
-    }
+    neighbours_->visit(passage_of(tick, link, pose0, pose1, bounds_of(link)), [&](int j) {
+      const Pair pair = pair_of(i, j, tick, pose0);
+      if (!separated(all, pair)) pairs_.push_back(pair);
+    });
   }
-  return certify({0, 1, pose0, pose1}, 0, 0);
+  return halve(all, 0, 0);
 }
 
-double MotionCertificate::clearance_of(const Link& link, int obstacle,
+/// The motion of the link by bounds on its ends' motion.
+Passage MotionCertificate::passage_of(int tick, const Link& link, const ChainPose& pose0,
+                                      const ChainPose& pose1, const PointBounds& bounds) const {
+  return {.tick = tick,
+          .link = link,
+          .from = pose0,
+          .to = pose1,
+          .sag = bounds.acceleration / 8,
+          .distance = clearance_ + kShortestPart * bounds.speed +
+                      kShortestPart * kShortestPart * bounds.acceleration};
+}
+
+/// Of both ends of the link.
+MotionCertificate::PointBounds MotionCertificate::bounds_of(const Link& link) const {
+  const PointBounds& start = bounds_[static_cast<std::size_t>(link.start)];
+  const PointBounds& end = bounds_[static_cast<std::size_t>(link.end)];
+  return {std::max(start.speed, end.speed), std::max(start.acceleration, end.acceleration)};
+}
+
+/// Whether lists made before prove the motion, by bounds that hold for all points.
+bool MotionCertificate::is_clear(int tick, const ChainPose& pose0, const ChainPose& pose1) const {
+  const double turn = dq_.lpNorm<1>();
+  const PointBounds bounds{turn * reach_, turn * turn * reach_};
+  return std::ranges::all_of(problem_->chain.links(), [&](const Link& link) {
+    return neighbours_->is_clear(passage_of(tick, link, pose0, pose1, bounds));
+  });
+}
+
+MotionCertificate::Pair MotionCertificate::pair_of(int link, int obstacle, int tick,
+                                                   const ChainPose& start) {
+  const Obstacle& body = problem_->obstacles[static_cast<std::size_t>(obstacle)];
+  Pair pair{link, obstacle, -1, 0};
+  if (body.moves()) {
+    assert(0 < tick && static_cast<std::size_t>(tick) < body.motion.size());
+    const std::span<const std::int32_t> movers = neighbours_->index()->movers();
+    pair.mover = static_cast<int>(std::ranges::lower_bound(movers, obstacle) - movers.begin());
+    KnownMotion& known = motions_[static_cast<std::size_t>(pair.mover)];
+    if (known.tick != tick) known = {tick, motion_of(body.at(tick - 1), body.at(tick))};
+  }
+  const Link& segment = problem_->chain.links()[static_cast<std::size_t>(link)];
+  pair.clearance = clearance_of(segment, body.moves() ? body.at(tick - 1) : body.shape, start);
+  return pair;
+}
+
+double MotionCertificate::clearance_of(const Link& link, const Ellipsoid& shape,
                                        const ChainPose& start) const {
   if (!(problem_->margin > 0)) return clearance_;
   constexpr double kSlack = 1e-3;
-  const Ellipsoid& shape = *motions_[static_cast<std::size_t>(obstacle)].shape;
   const Eigen::Vector3d p1 = start.p_WO.col(link.start);
   const Eigen::Vector3d p2 = start.p_WO.col(link.end);
   ++counters_->quadratics;
@@ -96,37 +144,39 @@ double MotionCertificate::clearance_of(const Link& link, int obstacle,
   return std::clamp((1 - kSlack) * distance, problem_->link_radius, clearance_);
 }
 
-MotionCertificate::Result MotionCertificate::certify(const Part& part, std::size_t first_pair,
-                                                     int halvings) {
-  // The pairs that stay open are pushed above those of this level, and popped on return.
-  const std::size_t first_open = pairs_.size();
-  for (std::size_t k = first_pair; k < first_open; ++k) {
-    const Pair pair = pairs_[k];
-    if (!separated(part, pair)) pairs_.push_back(pair);
+/// Certifies the pairs from first_open on, which were found open in this part.
+MotionCertificate::Result MotionCertificate::halve(const Part& part, std::size_t first_open,
+                                                   int halvings) {
+  const std::size_t end = pairs_.size();
+  if (end == first_open) return {};
+  if (halvings == kMaxHalvings) {
+    const Pair& open = pairs_[first_open];
+    return {false, problem_->chain.links()[static_cast<std::size_t>(open.link)].number,
+            open.obstacle};
   }
-  Result result;
-  if (pairs_.size() > first_open) {
-    if (halvings == kMaxHalvings) {
-      const Pair open = pairs_[first_open];
-      return {false, problem_->chain.links()[static_cast<std::size_t>(open.link)].number,
-              open.obstacle};
+  const double middle = 0.5 * (part.s0 + part.s1);
+  ChainPose pose;
+  problem_->chain.forward(q0_ + middle * dq_, pose);
+  ++counters_->kinematics;
+  for (const Part& half :
+       {Part{part.s0, middle, part.pose0, pose}, Part{middle, part.s1, pose, part.pose1}}) {
+    // The pairs that stay open are pushed above those of this part, and popped again.
+    for (std::size_t k = first_open; k < end; ++k) {
+      const Pair pair = pairs_[k];
+      if (!separated(half, pair)) pairs_.push_back(pair);
     }
-    const double middle = 0.5 * (part.s0 + part.s1);
-    ChainPose pose;
-    problem_->chain.forward(q0_ + middle * dq_, pose);
-    ++counters_->kinematics;
-    result = certify({part.s0, middle, part.pose0, pose}, first_open, halvings + 1);
-    if (result.certified) {
-      result = certify({middle, part.s1, pose, part.pose1}, first_open, halvings + 1);
-    }
+    const Result result = halve(half, end, halvings + 1);
+    pairs_.resize(end);
+    if (!result.certified) return result;
   }
-  pairs_.resize(first_open);
-  return result;
+  return {};
 }
 
 bool MotionCertificate::separated(const Part& part, const Pair& pair) const {
   const Link& link = problem_->chain.links()[static_cast<std::size_t>(pair.link)];
-  const Motion& motion = motions_[static_cast<std::size_t>(pair.obstacle)];
+  const Obstacle& body = problem_->obstacles[static_cast<std::size_t>(pair.obstacle)];
+  const Motion motion = pair.mover < 0 ? Motion::rest(body.shape)
+                                       : motions_[static_cast<std::size_t>(pair.mover)].motion;
   const Ellipsoid& shape = *motion.shape;
   const double h = part.s1 - part.s0;
   ++counters_->quadratics;
@@ -136,9 +186,8 @@ bool MotionCertificate::separated(const Part& part, const Pair& pair) const {
   Eigen::Vector3d y_start1 = part.pose1.p_WO.col(link.start) - shape.center();
   Eigen::Vector3d y_end0 = part.pose0.p_WO.col(link.end) - shape.center();
   Eigen::Vector3d y_end1 = part.pose1.p_WO.col(link.end) - shape.center();
-  const PointBounds& start_bounds = bounds_[static_cast<std::size_t>(link.start)];
-  const PointBounds& end_bounds = bounds_[static_cast<std::size_t>(link.end)];
-  double acceleration = std::max(start_bounds.acceleration, end_bounds.acceleration);
+  const PointBounds bounds = bounds_of(link);
+  double acceleration = bounds.acceleration;
   if (!motion.rests) {
     const Eigen::Matrix3d back0 =
         Eigen::AngleAxisd(-part.s0 * motion.angle, motion.axis).toRotationMatrix();
@@ -148,7 +197,7 @@ bool MotionCertificate::separated(const Part& part, const Pair& pair) const {
     y_start1 = back1 * (y_start1 - part.s1 * motion.way);
     y_end0 = back0 * (y_end0 - part.s0 * motion.way);
     y_end1 = back1 * (y_end1 - part.s1 * motion.way);
-    const double speed = std::max(start_bounds.speed, end_bounds.speed) + motion.way.norm();
+    const double speed = bounds.speed + motion.way.norm();
     const double furthest = std::sqrt(std::max({y_start0.squaredNorm(), y_start1.squaredNorm(),
                                                 y_end0.squaredNorm(), y_end1.squaredNorm()})) +
                             0.5 * h * speed;

@@ -4,8 +4,10 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <memory>
 #include <vector>
 
+#include "bqsa/neighbourhood/neighbour_lists.hpp"
 #include "bqsa/problem.hpp"
 #include "bqsa/work_counters.hpp"
 
@@ -37,6 +39,9 @@ namespace bqsa {
 /// distance query. What it certifies is free (to rounding, about 1e-15 of the lengths in play);
 /// what it does not certify may be free all the same, when a link slides along an obstacle closer
 /// than about 1e-7 of its length.
+///
+/// Pairs of which it is proven that the shortest parts, if not all of the motion, would be separated at the
+/// first attempt are left out (neighbour_lists.hpp); that changes no answer.
 class MotionCertificate {
  public:
   /// The links' axes must keep link radius and margin of the problem. Where a motion starts closer
@@ -45,6 +50,9 @@ class MotionCertificate {
   /// allocate.
   void assign(const Problem& problem, WorkCounters& counters);
 
+  /// Of the problem's obstacles, for others to use too.
+  const std::shared_ptr<NeighbourLists>& neighbours() const { return neighbours_; }
+
   struct Result {
     bool certified = true;
     int link = 0;       ///< number of the first link that could not be certified, else 0
@@ -52,7 +60,8 @@ class MotionCertificate {
   };
 
   /// The motion from q0 at the tick before `tick` to q1 at `tick`; of obstacles that move, `tick`
-  /// is one of 1 .. ticks. Does not allocate.
+  /// is one of 1 .. ticks. Does not allocate, unless more than 4096 pairs stay open at a time for the first
+  /// time.
   Result certify(int tick, const JointVector& q0, const JointVector& q1);
 
   /// The same for a caller who knows where the links are.
@@ -63,10 +72,12 @@ class MotionCertificate {
  private:
   /// Parts shorter than 2^-kMaxHalvings of the motion are not halved again.
   static constexpr int kMaxHalvings = 12;
+  static_assert(kShortestPart == 1.0 / (1 << kMaxHalvings), "neighbours are left out by this");
 
   struct Pair {
     int link;  ///< index into SerialChain::links
     int obstacle;
+    int mover;         ///< index into motions_; -1 if the obstacle never moves
     double clearance;  ///< to be kept [m]
   };
   struct Part {
@@ -82,6 +93,10 @@ class MotionCertificate {
     Eigen::Vector3d way;   ///< v, of the centre [m]
     Eigen::Vector3d axis;  ///< of its turn, in W
     double angle;          ///< w, at most pi [rad]
+
+    static Motion rest(const Ellipsoid& shape) {
+      return {&shape, true, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ(), 0};
+    }
   };
 
   /// Bounds, over all of the motion, of |dP/ds| and |d²P/ds²| of a link's end-point P [m].
@@ -89,19 +104,32 @@ class MotionCertificate {
     double speed, acceleration;
   };
 
+  /// A Motion of the last tick for which it was asked.
+  struct KnownMotion {
+    int tick;
+    Motion motion;
+  };
+
   static Motion motion_of(const Ellipsoid& from, const Ellipsoid& to);
   static PointBounds bounds_of(const SerialChain& chain, const JointVector& dq, int point);
 
-  double clearance_of(const Link& link, int obstacle, const ChainPose& start) const;
-  Result certify(const Part& part, std::size_t first_pair, int halvings);
+  PointBounds bounds_of(const Link& link) const;
+  Passage passage_of(int tick, const Link& link, const ChainPose& pose0, const ChainPose& pose1,
+                     const PointBounds& bounds) const;
+  bool is_clear(int tick, const ChainPose& pose0, const ChainPose& pose1) const;
+  Pair pair_of(int link, int obstacle, int tick, const ChainPose& start);
+  double clearance_of(const Link& link, const Ellipsoid& shape, const ChainPose& start) const;
+  Result halve(const Part& part, std::size_t first_open, int halvings);
   bool separated(const Part& part, const Pair& pair) const;
 
   const Problem* problem_ = nullptr;
-  double clearance_ = 0;     ///< link radius and margin [m]
+  double clearance_ = 0;  ///< link radius and margin [m]
+  double reach_ = 0;      ///< of any point from any axis, at most [m]
+  std::shared_ptr<NeighbourLists> neighbours_;
   std::vector<Pair> pairs_;  ///< a stack: the pairs still open on each level of halving
   JointVector q0_, dq_;
   std::array<PointBounds, kMaxPoints> bounds_{};
-  std::vector<Motion> motions_;  ///< an obstacle each
+  std::vector<KnownMotion> motions_;  ///< of each obstacle that moves
   WorkCounters* counters_ = nullptr;
 };
 

@@ -5,45 +5,26 @@
 #include "bqsa/geometry/nearest_plane.hpp"
 
 namespace bqsa {
-namespace {
-
-Ellipse as_seen(const Ellipsoid& shape, const Ellipse*) { return planar_section(shape); }
-Ellipsoid as_seen(const Ellipsoid& shape, const Ellipsoid*) { return shape; }
-
-}  // namespace
 
 template <int Dim>
 void ObstacleField<Dim>::assign(const std::vector<Obstacle>& obstacles, WorkCounters& counters,
-                                double clearance) {
+                                double clearance, std::shared_ptr<NeighbourLists> neighbours) {
+  obstacles_ = &obstacles;
   counters_ = &counters;
+  tick_ = 0;
   distance_ = 0;
   tight_ = clearance > 0;
-  shapes_.clear();
-  movers_.clear();
-  const EllipsoidN<Dim>* const kind = nullptr;
-  for (const Obstacle& obstacle : obstacles) {
-    if (obstacle.moves()) {
-      Mover mover{shapes_.size(), {}};
-      for (const Ellipsoid& shape : obstacle.motion) mover.motion.push_back(as_seen(shape, kind));
-      movers_.push_back(std::move(mover));
-    }
-    shapes_.push_back(as_seen(obstacle.at(0), kind));
+  if constexpr (Dim == 2) sections_.assign(obstacles, planar_section);
+  if (neighbours == nullptr) {
+    neighbours = std::make_shared<NeighbourLists>(std::make_shared<ObstacleIndex>(obstacles),
+                                                  FreeBy::kSpace, counters);
   }
+  neighbours_ = std::move(neighbours);
 }
 
 template <int Dim>
-void ObstacleField<Dim>::go_to(int tick) {
-  for (const Mover& mover : movers_) {
-    shapes_[mover.obstacle] = mover.motion[static_cast<std::size_t>(tick)];
-  }
-}
-
-template <int Dim>
-bool ObstacleField<Dim>::hit(const ChainPose& pose, const Link& link, int obstacle) const {
-  using Vector = Eigen::Matrix<double, Dim, 1>;
+bool ObstacleField<Dim>::hit(const Vector& p1, const Vector& p2, int obstacle) const {
   ++counters_->quadratics;
-  const Vector p1 = pose.p_WO.col(link.start).template head<Dim>();
-  const Vector p2 = pose.p_WO.col(link.end).template head<Dim>();
   const double bound = separation((*this)[obstacle], p1, p2);
   if (bound > distance_) return false;
   if (!tight_ || bound <= 0) return true;
@@ -53,17 +34,16 @@ bool ObstacleField<Dim>::hit(const ChainPose& pose, const Link& link, int obstac
 
 template <int Dim>
 int ObstacleField<Dim>::first_hit(const ChainPose& pose, const Link& link, int from) const {
-  for (int j = from; j < static_cast<int>(shapes_.size()); ++j) {
-    if (hit(pose, link, j)) return j;
-  }
-  return -1;
+  const Vector p1 = pose.p_WO.col(link.start).template head<Dim>();
+  const Vector p2 = pose.p_WO.col(link.end).template head<Dim>();
+  return neighbours_->find({tick_, link, pose, pose, 0, distance_}, from,
+                           [&](int obstacle) { return hit(p1, p2, obstacle); });
 }
 
 template <int Dim>
 typename ObstacleField<Dim>::Proximity ObstacleField<Dim>::proximity(const ChainPose& pose,
                                                                      const Link& link,
                                                                      int obstacle) const {
-  using Vector = Eigen::Matrix<double, Dim, 1>;
   const EllipsoidN<Dim>& shape = (*this)[obstacle];
   const Vector p1 = pose.p_WO.col(link.start).template head<Dim>();
   const Vector p2 = pose.p_WO.col(link.end).template head<Dim>();

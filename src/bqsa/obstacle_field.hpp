@@ -2,44 +2,50 @@
 /// The obstacles as a BQSA variant sees them, asked by the quadratic test.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "bqsa/geometry/separation.hpp"
-#include "bqsa/problem.hpp"
-#include "bqsa/work_counters.hpp"
+#include "bqsa/neighbourhood/neighbour_lists.hpp"
+#include "bqsa/shapes_over_time.hpp"
 
 namespace bqsa {
 
 /// All obstacles of a problem in Dim dimensions, with one distance that links must keep from all of
 /// them. The distance gives links of radius r room to be and keeps results off the contact
-/// threshold.
+/// threshold. Obstacles that are proven to be far away are not asked (neighbour_lists.hpp); that changes no
+/// answer.
 template <int Dim>
 class ObstacleField {
  public:
   /// Takes over the obstacles, as they are at tick 0; planar fields take the plane section of each.
-  /// Quadratics and distance queries are counted in `counters`, which must outlive the field. May
-  /// allocate.
+  /// Quadratics, bounds and distance queries are counted in `counters`. Obstacles and counters must
+  /// outlive the field. May allocate.
   ///
-  /// @param clearance  link radius and margin [m]. If there are any, a link that the quadratic
-  ///                   cannot show to be far enough away is asked for its tight distance
-  ///                   (nearest_plane.hpp).
-  void assign(const std::vector<Obstacle>& obstacles, WorkCounters& counters, double clearance = 0);
+  /// @param clearance   link radius and margin [m]. If there are any, a link that the quadratic
+  ///                    cannot show to be far enough away is asked for its tight distance
+  ///                    (nearest_plane.hpp).
+  /// @param neighbours  of the same obstacles, by space; if none are given, the field makes its own
+  void assign(const std::vector<Obstacle>& obstacles, WorkCounters& counters, double clearance = 0,
+              std::shared_ptr<NeighbourLists> neighbours = nullptr);
 
-  /// From now on the obstacles are where they are at this tick. Does not allocate.
-  void go_to(int tick);
+  /// From now on the obstacles are where they are at this tick.
+  void go_to(int tick) { tick_ = tick; }
 
   /// From now on a link that is not proven to be further away than this [m] counts as hitting.
   void keep(double distance) { distance_ = distance; }
 
   double distance() const { return distance_; }
-  int size() const { return static_cast<int>(shapes_.size()); }
 
   const EllipsoidN<Dim>& operator[](int obstacle) const {
-    return shapes_[static_cast<std::size_t>(obstacle)];
+    if constexpr (Dim == 2)
+      return sections_.at(obstacle, tick_);
+    else
+      return (*obstacles_)[static_cast<std::size_t>(obstacle)].at(tick_);
   }
 
   /// The first obstacle, counted from `from`, that the link hits: with which it is in category 3, 4
-  /// or 5, or from which it is not far enough away; -1 if none.
+  /// or 5, or from which it is not far enough away; -1 if none. Does not allocate.
   int first_hit(const ChainPose& pose, const Link& link, int from = 0) const;
 
   /// How link and obstacle lie to each other.
@@ -51,16 +57,26 @@ class ObstacleField {
   };
   Proximity proximity(const ChainPose& pose, const Link& link, int obstacle) const;
 
+  /// Calls `visit(obstacle, proximity)` for all obstacles, in increasing order, that are not further from
+  /// the link than the distance to keep and `beyond` [m].
+  template <typename Visit>
+  void visit_near(const ChainPose& pose, const Link& link, double beyond,
+                  const Visit& visit) const {
+    neighbours_->visit({tick_, link, pose, pose, 0, distance_ + beyond}, [&](int obstacle) {
+      const Proximity near = proximity(pose, link, obstacle);
+      if (!(distance_ - near.distance < -beyond)) visit(obstacle, near);
+    });
+  }
+
  private:
-  bool hit(const ChainPose& pose, const Link& link, int obstacle) const;
+  using Vector = Eigen::Matrix<double, Dim, 1>;
 
-  struct Mover {
-    std::size_t obstacle;                 ///< index
-    std::vector<EllipsoidN<Dim>> motion;  ///< at every tick
-  };
+  bool hit(const Vector& p1, const Vector& p2, int obstacle) const;
 
-  std::vector<EllipsoidN<Dim>> shapes_;
-  std::vector<Mover> movers_;
+  const std::vector<Obstacle>* obstacles_ = nullptr;
+  ShapesOverTime<Ellipse> sections_;  ///< of planar fields
+  std::shared_ptr<NeighbourLists> neighbours_;
+  int tick_ = 0;
   double distance_ = 0;
   bool tight_ = false;  ///< whether `nearest_plane` is asked
   WorkCounters* counters_ = nullptr;

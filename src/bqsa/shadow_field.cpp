@@ -25,21 +25,18 @@ Eigen::Vector2d projected(const Eigen::Vector3d& p, CoordinatePlane plane) {
 }
 
 void ShadowField::assign(const std::vector<Obstacle>& obstacles, WorkCounters& counters,
-                         double clearance) {
+                         double clearance, std::shared_ptr<const ObstacleIndex> index) {
   counters_ = &counters;
   tight_ = clearance > 0;
   tick_ = 0;
   distance_ = 0;
-  shadows_.clear();
   const auto shadows_of = [](const Ellipsoid& shape) -> Shadows {
     return {shadow_on(CoordinatePlane::kXy, shape), shadow_on(CoordinatePlane::kYz, shape),
             shadow_on(CoordinatePlane::kZx, shape)};
   };
-  for (const Obstacle& obstacle : obstacles) {
-    std::vector<Shadows>& all = shadows_.emplace_back();
-    if (!obstacle.moves()) all.push_back(shadows_of(obstacle.shape));
-    for (const Ellipsoid& shape : obstacle.motion) all.push_back(shadows_of(shape));
-  }
+  shadows_.assign(obstacles, shadows_of);
+  if (index == nullptr) index = std::make_shared<ObstacleIndex>(obstacles);
+  neighbours_ = std::make_unique<NeighbourLists>(std::move(index), FreeBy::kShadows, counters);
 }
 
 bool ShadowField::hit(const Shadows& shadows, const Eigen::Vector3d& p1,
@@ -66,11 +63,8 @@ bool ShadowField::hit(const Shadows& shadows, const Eigen::Vector3d& p1,
 int ShadowField::first_hit(const ChainPose& pose, const Link& link, int from) const {
   const Eigen::Vector3d p1 = pose.p_WO.col(link.start);
   const Eigen::Vector3d p2 = pose.p_WO.col(link.end);
-  for (int j = from; j < static_cast<int>(shadows_.size()); ++j) {
-    const std::vector<Shadows>& all = shadows_[static_cast<std::size_t>(j)];
-    if (hit(all.size() == 1 ? all.front() : all[tick_], p1, p2)) return j;
-  }
-  return -1;
+  return neighbours_->find({tick_, link, pose, pose, 0, distance_}, from,
+                           [&](int obstacle) { return hit(shadows_.at(obstacle, tick_), p1, p2); });
 }
 
 }  // namespace bqsa

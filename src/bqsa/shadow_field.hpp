@@ -3,10 +3,11 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
-#include "bqsa/problem.hpp"
-#include "bqsa/work_counters.hpp"
+#include "bqsa/neighbourhood/neighbour_lists.hpp"
+#include "bqsa/shapes_over_time.hpp"
 
 namespace bqsa {
 
@@ -22,26 +23,29 @@ Eigen::Vector2d projected(const Eigen::Vector3d& p, CoordinatePlane plane);
 /// them. A link hits an obstacle if its own shadow hits the obstacle's in all three planes. By
 /// Lemma 1 every link that hits in space does so here; the converse is false, so that links can hit
 /// here that are free in space. A projection shortens all distances, so that the distance in any
-/// one plane is a lower bound of the one in space.
+/// one plane is a lower bound of the one in space. Obstacles that are proven to be free in a plane are not
+/// asked (neighbour_lists.hpp); that changes no answer.
 class ShadowField {
  public:
   /// Takes the shadows of all obstacles, of moving ones at every tick, and goes to tick 0.
-  /// Quadratics and distance queries are counted in `counters`, which must outlive the field. May
-  /// allocate.
+  /// Quadratics, bounds and distance queries are counted in `counters`. Obstacles and counters must
+  /// outlive the field. May allocate.
   ///
   /// @param clearance  link radius and margin [m]. If there are any, shadows that the quadratics
   ///                   cannot show to be far enough apart are asked for their tight distance
   ///                   (nearest_plane.hpp).
-  void assign(const std::vector<Obstacle>& obstacles, WorkCounters& counters, double clearance = 0);
+  /// @param index      of the same obstacles; if none is given, the field makes its own
+  void assign(const std::vector<Obstacle>& obstacles, WorkCounters& counters, double clearance = 0,
+              std::shared_ptr<const ObstacleIndex> index = nullptr);
 
-  /// From now on the obstacles are where they are at this tick. Does not allocate.
-  void go_to(int tick) { tick_ = static_cast<std::size_t>(tick); }
+  /// From now on the obstacles are where they are at this tick.
+  void go_to(int tick) { tick_ = tick; }
 
   /// From now on shadows that are not proven to be further apart than this [m] count as hitting.
   void keep(double distance) { distance_ = distance; }
 
   /// The first obstacle, counted from `from`, that the link hits; -1 if none. The planes are asked
-  /// in turn until one says free: one to three quadratics an obstacle.
+  /// in turn until one says free: one to three quadratics an obstacle. Does not allocate.
   int first_hit(const ChainPose& pose, const Link& link, int from = 0) const;
 
  private:
@@ -49,8 +53,9 @@ class ShadowField {
 
   bool hit(const Shadows& shadows, const Eigen::Vector3d& p1, const Eigen::Vector3d& p2) const;
 
-  std::vector<std::vector<Shadows>> shadows_;  ///< of every obstacle: at every tick, or one at rest
-  std::size_t tick_ = 0;
+  ShapesOverTime<Shadows> shadows_;
+  std::unique_ptr<NeighbourLists> neighbours_;
+  int tick_ = 0;
   double distance_ = 0;
   bool tight_ = false;  ///< whether `nearest_plane` is asked
   WorkCounters* counters_ = nullptr;

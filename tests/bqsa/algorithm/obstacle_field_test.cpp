@@ -41,8 +41,9 @@ TYPED_TEST(ObstacleFieldTest, WithAClearanceALinkHitsExactlyWhatIsCloser) {
   for (int i = 0; i < 1500; ++i) {
     const Ellipsoid shape = embedded(random_ellipsoid<2>(generator, 1e-4, 0.3, 0.5));
     const double wanted = log_uniform(generator, 1e-2, 0.3);
+    const std::vector<Obstacle> obstacles = {{"o", shape}};
     TypeParam field;
-    field.assign({{"o", shape}}, counters, wanted);
+    field.assign(obstacles, counters, wanted);
     field.keep(wanted);
     const ChainPose pose = random_pose(generator, arm);
     for (const Link& link : arm.links()) {
@@ -65,8 +66,9 @@ TYPED_TEST(ObstacleFieldTest, WithoutClearanceItAsksTheQuadraticAlone) {
   int hits = 0;
   for (int i = 0; i < 500; ++i) {
     const Ellipse ellipse = random_ellipsoid<2>(generator, 1e-4, 0.3, 0.5);
+    const std::vector<Obstacle> obstacles = {{"o", embedded(ellipse)}};
     TypeParam field;
-    field.assign({{"o", embedded(ellipse)}}, counters);
+    field.assign(obstacles, counters);
     field.keep(0.01);
     const ChainPose pose = random_pose(generator, arm);
     for (const Link& link : arm.links()) {
@@ -91,8 +93,9 @@ TYPED_TEST(ObstacleFieldTest, SeesAMovingObstacleWhereItIsAtTheTick) {
                   embedded(rotated_ellipse({0.55, 0.2}, {0.3, 0.02}, 1.5))};
   const Obstacle resting{"resting", embedded(rotated_ellipse({0.9, 0}, {0.05, 0.05}, 0))};
   WorkCounters counters;
+  const std::vector<Obstacle> obstacles = {resting, mover};
   TypeParam field;
-  field.assign({resting, mover}, counters);
+  field.assign(obstacles, counters);
   const auto hits_of_the_second_link = [&] { return field.first_hit(pose, arm.links()[1]); };
   EXPECT_EQ(hits_of_the_second_link(), -1);
   for (const auto& [tick, hit] : {std::pair{1, -1}, {2, 1}, {1, -1}, {0, -1}, {2, 1}}) {
@@ -111,8 +114,9 @@ TYPED_TEST(ObstacleFieldTest, DoesNotAllocateOnceAssigned) {
                                                     mover.shape.semi_axes().head<2>(), k)));
   }
   WorkCounters counters;
+  const std::vector<Obstacle> obstacles = {mover, mover};
   TypeParam field;
-  field.assign({mover, mover}, counters, 0.1);
+  field.assign(obstacles, counters, 0.1);
   field.keep(0.1);
   ChainPose pose = random_pose(generator, arm);
   int hits = 0;

@@ -30,9 +30,9 @@ using test_support::uniform;
 /// Asks the field about single segments.
 class Asked {
  public:
-  explicit Asked(const std::vector<Obstacle>& obstacles, double distance = 0,
-                 double clearance = 0) {
-    field_.assign(obstacles, counters_, clearance);
+  explicit Asked(std::vector<Obstacle> obstacles, double distance = 0, double clearance = 0)
+      : obstacles_(std::move(obstacles)) {
+    field_.assign(obstacles_, counters_, clearance);
     field_.keep(distance);
     pose_.p_WO.resize(3, 2);
   }
@@ -49,6 +49,7 @@ class Asked {
   std::uint64_t distance_queries() const { return counters_.distance_queries; }
 
  private:
+  std::vector<Obstacle> obstacles_;
   WorkCounters counters_;
   ShadowField field_;
   ChainPose pose_;
