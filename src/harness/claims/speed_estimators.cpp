@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <nlohmann/json.hpp>
 
 #include "harness/claims/estimator_lists.hpp"
 #include "harness/claims/laboratory.hpp"
-#include "harness/claims/program_output.hpp"
 #include "harness/measuring/contest.hpp"
 #include "harness/measuring/speed_of_pairs.hpp"
 
@@ -16,15 +13,6 @@ namespace {
 
 Figure figure_of(const char* name, const Estimate& estimate) {
   return {name, estimate.value, estimate.interval};
-}
-
-/// Of times that were taken together, one of each a time.
-Estimate ratio_of(const std::vector<double>& a, const std::vector<double>& b) {
-  const Sweep sweep{.name = "",
-                    .axis = SweepAxis::kPairs,
-                    .sizes = {{}},
-                    .series = {{"a", {a}, {}, {}}, {"b", {b}, {}, {}}}};
-  return time_ratio(sweep, "a", "b", 0);
 }
 
 /// Nothing is fitted. In the cache a pass takes the time of its multiply-adds at the machine's peak: 9 for each end-point
@@ -59,10 +47,10 @@ Findings batch_model(const Arguments&, Laboratory& laboratory) {
     far.push_back(std::max(arithmetic_double[process], reading[process]));
     far_float.push_back(std::max(arithmetic_float[process], reading[process] / 2));
   }
-  return {.figures = {figure_of("double", ratio_of(arithmetic_double, times("batch"))),
-                      figure_of("float", ratio_of(arithmetic_float, times("batch_float"))),
-                      figure_of("far", ratio_of(far, times("batch_far"))),
-                      figure_of("float_far", ratio_of(far_float, times("batch_float_far")))},
+  return {.figures = {figure_of("double", time_ratio(arithmetic_double, times("batch"))),
+                      figure_of("float", time_ratio(arithmetic_float, times("batch_float"))),
+                      figure_of("far", time_ratio(far, times("batch_far"))),
+                      figure_of("float_far", time_ratio(far_float, times("batch_float_far")))},
           .remarks = {}};
 }
 
@@ -158,68 +146,11 @@ Findings clearing_ticks(const Arguments& arguments, Laboratory& laboratory) {
   if (clearing.empty()) return {.figures = {}, .remarks = {"no run had ticks of both kinds"}};
   std::sort(clearing.begin(), clearing.end());
   return {.figures = {{"ticks", static_cast<double>(clearing.size())},
-                      figure_of("median_ratio", ratio_of(median_sum, free_sum)),
+                      figure_of("median_ratio", time_ratio(median_sum, free_sum)),
                       {"median", median_of(clearing) / kMicrosecond},
                       {"rare", quantile_of(clearing, kRare) / kMicrosecond},
                       {"worst", most / kMicrosecond}},
           .remarks = {worst}};
-}
-
-/// Where programs that this one starts are, in its build.
-constexpr const char* kCompanions = "benchmarks/companions";
-
-std::string not_built(const std::filesystem::path& program) {
-  return fmt::format("{} was not built (target companions)", program.filename().string());
-}
-
-/// Figures that a program of the build prints, as JSON: an object of numbers.
-Findings printed_figures(const std::filesystem::path& program,
-                         const std::vector<std::string>& arguments) {
-  Findings findings;
-  const auto json = nlohmann::json::parse(program_output(program, arguments));
-  for (const auto& [name, value] : json.items()) {
-    findings.figures.push_back({name, value.get<double>()});
-  }
-  return findings;
-}
-
-/// The two builds run by turns, so that what slows the machine down slows both alike.
-Findings native_build(const Arguments&, Laboratory& laboratory) {
-  const std::filesystem::path directory = laboratory.build_directory() / kCompanions;
-  const std::filesystem::path programs[] = {directory / "default_speed",
-                                            directory / "native_speed"};
-  for (const std::filesystem::path& program : programs) {
-    if (!std::filesystem::exists(program)) return {.figures = {}, .not_here = not_built(program)};
-  }
-  const int rounds = laboratory.full() ? 10 : 4;
-  std::map<std::string, std::vector<double>> times[2];  // of a kernel, [build], one a round [s]
-  for (int round = 1; round <= rounds; ++round) {
-    for (const int build : {0, 1}) {
-      for (const Figure& kernel :
-           printed_figures(programs[build], {std::to_string(round)}).figures) {
-        times[build][kernel.name].push_back(kernel.value);
-      }
-    }
-  }
-  Findings findings;
-  std::map<std::string, Figure> slowest;  // of kernels and of steps
-  for (const auto& [name, seconds] : times[0]) {
-    const Estimate ratio = ratio_of(seconds, times[1].at(name));
-    findings.remarks.push_back(fmt::format("{}: {:.3f}", name, ratio.value));
-    const std::string kind = name.substr(0, name.find('_'));
-    const auto found = slowest.find(kind);
-    if (found != slowest.end() && found->second.value >= ratio.value) continue;
-    slowest.insert_or_assign(kind, figure_of(kind.c_str(), ratio));
-  }
-  for (const auto& [kind, figure] : slowest) findings.figures.push_back(figure);
-  return findings;
-}
-
-Findings allocations(const Arguments&, Laboratory& laboratory) {
-  const std::filesystem::path program =
-      laboratory.build_directory() / kCompanions / "count_allocations";
-  if (!std::filesystem::exists(program)) return {.figures = {}, .not_here = not_built(program)};
-  return printed_figures(program, {});
 }
 
 }  // namespace
@@ -259,23 +190,6 @@ std::vector<Estimator> speed_estimators() {
                    {"rare", "us", "that one in a thousand of them exceeds", true},
                    {"worst", "us", "of them", true}},
        .estimate = clearing_ticks},
-      {.name = "native_build",
-       .what =
-           "Time of this build over time of a build for the instructions of this processor alone, "
-           "two programs run by turns",
-       .timing = true,
-       .arguments = {},
-       .figures = {{"kernel", "-", "of the segment test, batched or single, where it is largest"},
-                   {"step", "-", "of a control step of bqsa, where it is largest"}},
-       .estimate = native_build},
-      {.name = "allocations",
-       .what = "Heap allocations of warm queries and steps",
-       .arguments = {},
-       .figures = {{"batch", "-", "a pass of the batched test, all forms and both precisions"},
-                   {"single", "-", "a single segment test"},
-                   {"step", "-", "200 control steps of bqsa in the plane and in space each"},
-                   {"fcl_collide", "-", "a query of FCL, its result kept from query to query"}},
-       .estimate = allocations},
   };
 }
 

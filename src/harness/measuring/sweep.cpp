@@ -127,12 +127,13 @@ Estimate time_of(const Sweep& sweep, std::string_view name, std::size_t size) {
 }
 
 Estimate time_ratio(const Sweep& sweep, std::string_view a, std::string_view b, std::size_t size) {
-  const std::vector<double>& a_times = series_of(sweep, a).seconds[size];
-  const std::vector<double>& b_times = series_of(sweep, b).seconds[size];
-  assert(a_times.size() == b_times.size());
+  return time_ratio(series_of(sweep, a).seconds[size], series_of(sweep, b).seconds[size]);
+}
+
+Estimate time_ratio(const std::vector<double>& a, const std::vector<double>& b) {
+  assert(a.size() == b.size());
   std::vector<double> logs;
-  for (std::size_t p = 0; p < a_times.size(); ++p)
-    logs.push_back(std::log(a_times[p] / b_times[p]));
+  for (std::size_t p = 0; p < a.size(); ++p) logs.push_back(std::log(a[p] / b[p]));
   return exponential(over_processes(logs));
 }
 

@@ -71,6 +71,9 @@ Estimate time_of(const Sweep& sweep, std::string_view name, std::size_t size);
 /// ratios within each.
 Estimate time_ratio(const Sweep& sweep, std::string_view a, std::string_view b, std::size_t size);
 
+/// The same of times that were taken together, one of each a process.
+Estimate time_ratio(const std::vector<double>& a, const std::vector<double>& b);
+
 /// The slope of log(time) against log(axis) from the size `from` on, at least three sizes measured.
 Estimate time_exponent(const Sweep& sweep, std::string_view name, std::size_t from = 0);
 
