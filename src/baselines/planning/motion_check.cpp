@@ -56,6 +56,7 @@ void MotionCheck::assign(const Problem& problem, WorkCounters& counters) {
   for (std::vector<Pair>& pairs : open_) pairs.reserve(all_pairs_.size());
 
   shapes_.clear();
+  filter_.reset();
   travel_.assign(problem.obstacles.size(), {});
   for (std::size_t j = 0; j < problem.obstacles.size(); ++j) {
     const Obstacle& obstacle = problem.obstacles[j];
@@ -71,12 +72,16 @@ void MotionCheck::assign(const Problem& problem, WorkCounters& counters) {
       travel.push_back(travel.back() + shift + turn);
     }
   }
+  const auto moves = [](const Obstacle& obstacle) { return obstacle.moves(); };
+  if (std::ranges::none_of(problem.obstacles, moves)) {
+    filter_.emplace(problem.chain, shapes_, clearance_);
+  }
 }
 
 bool MotionCheck::is_free(double t, const JointVector& q) { return is_free(t, q, t, q); }
 
 bool MotionCheck::is_free(double t0, const JointVector& q0, double t1, const JointVector& q1) {
-  return is_free_between(t0, q0, t1, q1, all_pairs_, 0);
+  return is_certainly_free(q0, q1) || is_free_between(t0, q0, t1, q1, all_pairs_, 0);
 }
 
 bool MotionCheck::is_free_between(double t0, const JointVector& q0, double t1,
@@ -109,6 +114,16 @@ bool MotionCheck::is_free_between(double t0, const JointVector& q0, double t1,
   if (halvings == kMaxHalvings) return false;
   return is_free_between(t0, q0, t, q, open, halvings + 1) &&
          is_free_between(t, q, t1, q1, open, halvings + 1);
+}
+
+bool MotionCheck::is_certainly_free(const JointVector& q0, const JointVector& q1) {
+  if (!filter_) return false;
+  const std::uint64_t before = filter_->configurations();
+  const bool free = filter_->certainly_free(q0, q1);
+  const std::uint64_t configurations = filter_->configurations() - before;
+  counters_->kinematics += configurations;
+  counters_->quadratics += configurations * all_pairs_.size();
+  return free;
 }
 
 double MotionCheck::link_motion(const Link& link, const JointVector& turn) const {

@@ -2,8 +2,10 @@
 /// Collision check of the planners: postures, and motions between them with proof.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "bqsa/batch/motion_filter.hpp"
 #include "bqsa/problem.hpp"
 #include "bqsa/work_counters.hpp"
 
@@ -27,7 +29,9 @@ class MotionCheck {
   /// Whether the straight joint motion from q0 at t0 to q1 at t1 >= t0 is free from end to end. For
   /// every link and obstacle, half the motion that both can make is compared with their distance in
   /// the middle; where it does not suffice, the motion is halved, at most kMaxHalvings times, beyond
-  /// which it counts as not free. Does not allocate once warm.
+  /// which it counts as not free. If all obstacles are at rest, the
+  /// batched test (motion_filter.hpp) is asked before: it may prove that the motion is free, and else
+  /// says nothing, so that the verdict is that of the distance. Does not allocate once warm.
   bool is_free(double t0, const JointVector& q0, double t1, const JointVector& q1);
 
  private:
@@ -40,6 +44,9 @@ class MotionCheck {
 
   bool is_free_between(double t0, const JointVector& q0, double t1, const JointVector& q1,
                        const std::vector<Pair>& pairs, int halvings);
+  /// By the batched test; false says nothing.
+  bool is_certainly_free(const JointVector& q0, const JointVector& q1);
+
   void go_to(double t);
 
   /// How far any point of the link or obstacle gets, at most, from where it is in the middle of the
@@ -50,7 +57,8 @@ class MotionCheck {
 
   const Problem* problem_ = nullptr;
   WorkCounters* counters_ = nullptr;
-  double clearance_ = 0;  ///< of the links' axes [m]
+  double clearance_ = 0;                ///< of the links' axes [m]
+  std::optional<MotionFilter> filter_;  ///< none if an obstacle moves
   std::vector<Pair> all_pairs_;
   std::vector<std::vector<Pair>> open_;      ///< pairs still open at each depth
   std::vector<Ellipsoid> shapes_;            ///< at the time of go_to()
