@@ -38,6 +38,8 @@ constexpr std::array kDetectorStyles{
     DetectorStyle{"bqsa_parameter", kBlack, kDotted, 4},
     DetectorStyle{"bqsa", kBlack, kDashed, 5},
     DetectorStyle{"bqsa_space", kBlack, kDashDot, 12},
+    DetectorStyle{"bqsa_batch", kBlack, kDotted, 8},
+    DetectorStyle{"bqsa_batch_float", kBlack, kDotted, 10},
     DetectorStyle{"test_points", kPurple, kSolid, 9},
     DetectorStyle{"test_points_vectorized", kPurple, kDashed, 8},
     DetectorStyle{"test_points_inside", kPurple, kDotted, 11},

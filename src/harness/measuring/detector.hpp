@@ -35,6 +35,7 @@ enum class Accuracy {
   kPaper,    ///< exact but for links that are vertical, or nearly so
   kPaperConservative,  ///< never free where the reference finds a hit, but for links that look
                        ///< vertical, or nearly so, in one of the projections
+  kConservative,  ///< never free where the reference finds a hit, and exact beyond a band around that
 };
 
 struct Detector {

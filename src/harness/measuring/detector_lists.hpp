@@ -11,10 +11,14 @@
 namespace bqsa::harness {
 
 std::vector<Detector> quadratic_detectors();
+std::vector<Detector> batch_detectors();
 std::vector<Detector> test_point_detectors();
 std::vector<Detector> exact_distance_detectors();
 std::vector<Detector> fcl_detectors();
 std::vector<Detector> ccd_detectors();
+
+/// `Detector::multiplications` of the polar form: 9 or 14 a link, and the arm's first point.
+double polar_multiplications(const WorkloadSize& size);
 
 /// `Detector::multiplications` of what nobody counts: not a number.
 double not_counted(const WorkloadSize& size);

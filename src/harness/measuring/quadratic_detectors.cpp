@@ -72,6 +72,10 @@ double polar_multiplications(int dimension, int links) {
 
 }  // namespace
 
+double polar_multiplications(const WorkloadSize& size) {
+  return polar_multiplications(size.dimension, size.links);
+}
+
 std::vector<Detector> quadratic_detectors() {
   return {
       {.name = "bqsa_paper",
@@ -116,10 +120,7 @@ std::vector<Detector> quadratic_detectors() {
        .accuracy = Accuracy::kExact,
        .in_plane = true,
        .in_space = true,
-       .multiplications =
-           [](const WorkloadSize& size) {
-             return polar_multiplications(size.dimension, size.links);
-           },
+       .multiplications = polar_multiplications,
        .prepare =
            [](const Workload& workload) {
              return workload.size.dimension == 2 ? polar<2>(workload) : polar<3>(workload);

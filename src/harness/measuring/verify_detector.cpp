@@ -75,7 +75,7 @@ Verification verify_detector(const Detector& detector, const Workload& workload,
                              const ReferenceAnswers& reference) {
   const std::unique_ptr<Detection> detection = detector.prepare(workload);
   std::vector<std::uint8_t> answers(static_cast<std::size_t>(workload.size.pairs()));
-  const double band = touching_band(detector.accuracy);
+  const TouchingBand band = touching_band(detector.accuracy);
   std::optional<ClosePoints> close_points;
   if (detector.accuracy == Accuracy::kSampled) close_points.emplace(workload);
 
@@ -89,7 +89,7 @@ Verification verify_detector(const Detector& detector, const Workload& workload,
       if (close_points && answers[pair] == 0 && *clearance < kTestPointMargin) {
         verification.overlooked += close_points->found(p, static_cast<Eigen::Index>(pair));
       }
-      if (std::abs(*clearance) < band) {
+      if (-band.hits < *clearance && *clearance < band.free) {
         ++verification.touching;
       } else if (looks_vertical(pose.col(i + 1) - pose.col(i), detector.accuracy)) {
         ++verification.vertical;
@@ -107,17 +107,22 @@ Verification verify_detector(const Detector& detector, const Workload& workload,
   return verification;
 }
 
-double touching_band(Accuracy accuracy) {
+TouchingBand touching_band(Accuracy accuracy) {
+  constexpr double kRounding = 1e-12;
+  constexpr double kLibraryTolerance = 1e-6;
+  constexpr double kFloatGrowth = 1e-4;  // several times what obstacles of a workload grow by
   switch (accuracy) {
     case Accuracy::kExact:
     case Accuracy::kSampled:
-      return 1e-12;
+      return {kRounding, kRounding};
+    case Accuracy::kConservative:
+      return {kRounding, kFloatGrowth};
     case Accuracy::kPaper:
     case Accuracy::kPaperConservative:
     case Accuracy::kLibrary:
-      return 1e-6;
+      return {kLibraryTolerance, kLibraryTolerance};
   }
-  return 0;
+  return {};
 }
 
 std::string broken_promise(const Detector& detector, const Verification& verification) {

@@ -24,7 +24,7 @@ ReferenceAnswers reference_answers(const Workload& workload, int pairs_at_most =
 
 /// A detector's answers against the reference, and those of test points against the test points, all
 /// pairs of which are tried. Left out are pairs for which its accuracy promises
-/// nothing: those that touch to within `touching_band`, and for the paper's forms links that are
+/// nothing: those within the `touching_band`, and for the paper's forms links that are
 /// vertical to within `kVertical`.
 struct Verification {
   int hits = 0;          ///< by the reference
@@ -41,8 +41,12 @@ struct Verification {
 Verification verify_detector(const Detector& detector, const Workload& workload,
                              const ReferenceAnswers& reference);
 
-/// How far from touching, either way, answers are promised to be right [m].
-double touching_band(Accuracy accuracy);
+/// How far from touching answers are promised to be right [m].
+struct TouchingBand {
+  double hits;  ///< how deep a hit must be
+  double free;  ///< how far apart the others must be
+};
+TouchingBand touching_band(Accuracy accuracy);
 
 /// |x_{i+1} - x_i| below which a link counts as vertical to the paper's forms [m]: there rounding can
 /// move their answers by more than the touching band.

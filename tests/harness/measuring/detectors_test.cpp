@@ -70,9 +70,18 @@ class Detectors : public testing::TestWithParam<Case> {
 
 INSTANTIATE_TEST_SUITE_P(All, Detectors, testing::ValuesIn(cases()), case_name);
 
-/// Level of a touch that is left to the tolerance of libraries, and to the rounding of the paper's form;
-/// with semi-axes from 5 cm on 5e-5 is at least 1.2 um.
+/// Level of a touch that is left to the tolerance of libraries, and to the rounding of the paper's form
+/// and of float; with semi-axes from 5 cm on 5e-5 is at least 1.2 um.
 double left_out(Accuracy accuracy) { return accuracy == Accuracy::kExact ? 1e-12 : 5e-5; }
+
+/// Float must find every hit, and may find a few more.
+double left_out_of_hits(Accuracy accuracy) {
+  return accuracy == Accuracy::kConservative ? 1e-12 : left_out(accuracy);
+}
+
+double left_out_of_free(Accuracy accuracy) {
+  return accuracy == Accuracy::kConservative ? 5e-4 : left_out(accuracy);
+}
 
 TEST_P(Detectors, KeepTheirPromiseAgainst113Bits) {
   int hits = 0, free = 0, near = 0, missed = 0, false_alarms = 0;
@@ -91,7 +100,8 @@ TEST_P(Detectors, KeepTheirPromiseAgainst113Bits) {
           const std::uint8_t answer = hit[static_cast<std::size_t>(j * workload.size.links + i)];
           ASSERT_LE(answer, 1);
           const double level = least_level(workload, pose, i, j);
-          if (std::abs(level) < left_out(detector_.accuracy)) {
+          if (-left_out_of_hits(detector_.accuracy) < level &&
+              level < left_out_of_free(detector_.accuracy)) {
             ++near;
           } else if (level < 0) {
             ++hits;
@@ -111,6 +121,7 @@ TEST_P(Detectors, KeepTheirPromiseAgainst113Bits) {
     case Accuracy::kExact:
     case Accuracy::kLibrary:
     case Accuracy::kPaper:
+    case Accuracy::kConservative:
       EXPECT_EQ(missed, 0);
       EXPECT_EQ(false_alarms, 0);
       break;
@@ -143,8 +154,9 @@ Workload next_to_touching(int dimension, double gap) {
 
 TEST_P(Detectors, TellHitFromFreeRightNextToTouching) {
   if (detector_.accuracy == Accuracy::kSampled) return;
-  const double gap = detector_.accuracy == Accuracy::kExact ? 1e-11 : 2e-6;
-  for (const double signed_gap : {gap, -gap}) {
+  const bool in_float = detector_.accuracy == Accuracy::kConservative;
+  const double gap = detector_.accuracy == Accuracy::kExact || in_float ? 1e-11 : 2e-6;
+  for (const double signed_gap : {in_float ? 2e-4 : gap, -gap}) {
     const Workload workload = next_to_touching(GetParam().dimension, signed_gap);
     const std::unique_ptr<Detection> detection = detector_.prepare(workload);
     int wrong = 0;
@@ -196,7 +208,7 @@ TEST(OwnDetectors, DoNotAllocate) {
     EXPECT_EQ(guard.allocations(), 0u) << detector->name;
     ++checked;
   }
-  EXPECT_EQ(checked, 16);
+  EXPECT_EQ(checked, 20);
 }
 
 /// Lemma 1 as stated, with shadows judged in 113 bits: a hit is what hits in all three planes.

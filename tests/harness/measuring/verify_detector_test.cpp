@@ -106,6 +106,11 @@ TEST_F(VerifyDetector, HoldsAConservativeOneToItsHitsOnly) {
   EXPECT_THAT(broken(wrong<AlwaysHit>(Accuracy::kPaperConservative)), IsEmpty());
 }
 
+TEST_F(VerifyDetector, HoldsFloatToAllHitsAndToWhatIsBeyondItsBand) {
+  EXPECT_THAT(broken(wrong<MissesOne>(Accuracy::kConservative)), HasSubstr("missed 1 of"));
+  EXPECT_THAT(broken(wrong<AlwaysHit>(Accuracy::kConservative)), HasSubstr("free pairs hits"));
+}
+
 TEST_F(VerifyDetector, HoldsTestPointsToTheirMargin) {
   EXPECT_THAT(broken(wrong<AlwaysFree>(Accuracy::kSampled)), HasSubstr("closer than the margin"));
   EXPECT_THAT(broken(wrong<OfTheLastPose>(Accuracy::kSampled)), HasSubstr("the margin"));
