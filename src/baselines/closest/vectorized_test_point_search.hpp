@@ -3,15 +3,17 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
+#include "baselines/closest/batched_test_points.hpp"
 #include "baselines/closest/closest_point_search.hpp"
 #include "baselines/closest/test_point_layout.hpp"
 
 namespace bqsa::baselines {
 
-/// The answers of TestPointSearch, from loops that the compiler vectorises: coordinates in separate
-/// arrays, the least squared distance first and which pair it was afterwards, in the plane without z.
+/// The answers of TestPointSearch by vector instructions: first the least squared distance of every test
+/// point of the links, then, for links within reach, which point of the obstacle it was.
 class VectorizedTestPointSearch final : public ClosestPointSearch {
  public:
   explicit VectorizedTestPointSearch(const TestPointCounts& counts) : counts_(counts) {}
@@ -21,19 +23,21 @@ class VectorizedTestPointSearch final : public ClosestPointSearch {
   void search(const ChainPose& pose, double reach, std::vector<ClosestPoint>& found) override;
 
  private:
-  using Points = Eigen::Matrix<double, Eigen::Dynamic, 3>;  // a column a coordinate, in W [m]
+  using Points = Eigen::MatrixX3d;  // by rows, in W [m]
 
-  void place(const Ellipsoid& shape, Points& surface) const;
+  void place(std::size_t obstacle, const Ellipsoid& shape);
+  int put_link_points(const ChainPose& pose);
 
   TestPointCounts counts_;
   const Problem* problem_ = nullptr;
   double exempt_length_ = 0;
   WorkCounters* counters_ = nullptr;
   int tick_ = 0;
-  Points unit_;
-  std::vector<Points> surface_;
-  Points link_;                    // test points of the link at hand
-  Eigen::VectorXd least_squared_;  // of each of them
+  Points unit_;                        // test points of the unit circle or sphere
+  std::vector<Points> surface_;        // of each obstacle
+  std::optional<PointBlocks> blocks_;  // the same, for vectors; made by assign
+  Points links_;                       // test points of all links
+  std::vector<double> least_squared_;  // of each of them, obstacle by obstacle [m²]
 };
 
 }  // namespace bqsa::baselines

@@ -44,6 +44,7 @@ constexpr std::array kDetectorStyles{
     DetectorStyle{"test_points_vectorized", kPurple, kDashed, 8},
     DetectorStyle{"test_points_inside", kPurple, kDotted, 11},
     DetectorStyle{"exact_distance", kRed, kSolid, 13},
+    DetectorStyle{"exact_distance_batched", kRed, kDashed, 12},
     DetectorStyle{"fcl_collide_libccd", kOrange, kSolid, 5},
     DetectorStyle{"fcl_collide_indep", kOrange, kDashed, 4},
     DetectorStyle{"fcl_collide_broadphase", kOrange, kDotted, 12},
@@ -52,6 +53,7 @@ constexpr std::array kDetectorStyles{
     DetectorStyle{"fcl_distance_broadphase", kYellow, kDotted, 2},
     DetectorStyle{"ccd_gjk", kGrey, kSolid, 6},
     DetectorStyle{"ccd_mpr", kGrey, kDashed, 14},
+    DetectorStyle{"bullet_gjk", kGrey, kDotted, 1},
 };
 
 std::string style_text(const char* colour, const char* dashes, int marker) {

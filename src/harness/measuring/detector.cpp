@@ -27,8 +27,9 @@ Detector library_detector(std::string_view name, std::string_view label, std::st
 std::span<const Detector> detectors() {
   static const std::vector<Detector> kDetectors = [] {
     std::vector<Detector> all;
-    for (const auto& some : {quadratic_detectors(), batch_detectors(), test_point_detectors(),
-                             exact_distance_detectors(), fcl_detectors(), ccd_detectors()}) {
+    for (const auto& some :
+         {quadratic_detectors(), batch_detectors(), test_point_detectors(),
+          exact_distance_detectors(), fcl_detectors(), ccd_detectors(), bullet_detectors()}) {
       all.insert(all.end(), some.begin(), some.end());
     }
     return all;

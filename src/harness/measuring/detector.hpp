@@ -30,6 +30,7 @@ inline constexpr double kTestPointMargin = 0.02;
 enum class Accuracy {
   kExact,    ///< those of the reference, but for touching to within rounding
   kLibrary,  ///< the same, but for touching to within the library's tolerance
+  kSinglePrecision,  ///< the same, of a library that computes in single precision
   kSampled,  ///< hits are what has test points closer than the margin, at least, and nothing
              ///< further away than that: misses hits between its test points
   kPaper,    ///< exact but for links that are vertical, or nearly so
@@ -58,7 +59,7 @@ struct Detector {
   std::unique_ptr<Detection> (*prepare)(const Workload& workload);
 };
 
-/// All detectors: the forms of BQSA, the test points, the exact distance, FCL and libccd.
+/// All detectors: the forms of BQSA, the test points, the exact distance, FCL, libccd and Bullet.
 std::span<const Detector> detectors();
 
 /// @throws InputError that lists the names

@@ -16,6 +16,7 @@ std::vector<Detector> test_point_detectors();
 std::vector<Detector> exact_distance_detectors();
 std::vector<Detector> fcl_detectors();
 std::vector<Detector> ccd_detectors();
+std::vector<Detector> bullet_detectors();
 
 /// `Detector::multiplications` of the polar form: 9 or 14 a link, and the arm's first point.
 double polar_multiplications(const WorkloadSize& size);

@@ -110,6 +110,8 @@ Verification verify_detector(const Detector& detector, const Workload& workload,
 TouchingBand touching_band(Accuracy accuracy) {
   constexpr double kRounding = 1e-12;
   constexpr double kLibraryTolerance = 1e-6;
+  constexpr double kSingleMiss = 1e-5;
+  constexpr double kSingleAlarm = 1e-3;
   constexpr double kFloatGrowth = 1e-4;  // several times what obstacles of a workload grow by
   switch (accuracy) {
     case Accuracy::kExact:
@@ -121,6 +123,8 @@ TouchingBand touching_band(Accuracy accuracy) {
     case Accuracy::kPaperConservative:
     case Accuracy::kLibrary:
       return {kLibraryTolerance, kLibraryTolerance};
+    case Accuracy::kSinglePrecision:
+      return {kSingleMiss, kSingleAlarm};
   }
   return {};
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "baselines/closest/test_point_search.hpp"
+#include "bqsa/batch/instruction_set.hpp"
 #include "support/closest_point_scenes.hpp"
 
 namespace bqsa::baselines {
@@ -14,6 +15,7 @@ using test_support::uniform;
 
 TEST(VectorizedTestPointSearch, AnswersWhatTheScalarSearchAnswers) {
   Generator generator(1);
+  const std::span<const InstructionSet> sets = instruction_sets();
   int compared = 0, inside = 0;
   for (int trial = 0; trial < 600; ++trial) {
     const Problem problem = random_closest_point_scene(generator, trial);
@@ -32,6 +34,7 @@ TEST(VectorizedTestPointSearch, AnswersWhatTheScalarSearchAnswers) {
       scalar.go_to(tick);
       vectorized.go_to(tick);
       scalar.search(pose, reach, expected);
+      use_instruction_set(sets[static_cast<std::size_t>(trial) % sets.size()].name);
       vectorized.search(pose, reach, found);
       ASSERT_EQ(found.size(), expected.size()) << trial;
       for (std::size_t k = 0; k < found.size(); ++k) {
@@ -47,6 +50,7 @@ TEST(VectorizedTestPointSearch, AnswersWhatTheScalarSearchAnswers) {
     }
     EXPECT_EQ(vectorized_work.point_pairs, scalar_work.point_pairs) << trial;
   }
+  use_instruction_set(sets.front().name);
   EXPECT_GT(compared, 3000);
   EXPECT_GT(inside, 100);
 }

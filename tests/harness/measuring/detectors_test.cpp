@@ -74,12 +74,14 @@ INSTANTIATE_TEST_SUITE_P(All, Detectors, testing::ValuesIn(cases()), case_name);
 /// and of float; with semi-axes from 5 cm on 5e-5 is at least 1.2 um.
 double left_out(Accuracy accuracy) { return accuracy == Accuracy::kExact ? 1e-12 : 5e-5; }
 
-/// Float must find every hit, and may find a few more.
+/// Float must find every hit, and may find a few more; of a library's, none by more than 10 um.
 double left_out_of_hits(Accuracy accuracy) {
+  if (accuracy == Accuracy::kSinglePrecision) return 4e-4;
   return accuracy == Accuracy::kConservative ? 1e-12 : left_out(accuracy);
 }
 
 double left_out_of_free(Accuracy accuracy) {
+  if (accuracy == Accuracy::kSinglePrecision) return 4e-2;
   return accuracy == Accuracy::kConservative ? 5e-4 : left_out(accuracy);
 }
 
@@ -116,10 +118,11 @@ TEST_P(Detectors, KeepTheirPromiseAgainst113Bits) {
   }
   EXPECT_GT(hits, 2000);
   EXPECT_GT(free, 20000);
-  EXPECT_LT(near, 10);
+  EXPECT_LT(near, detector_.accuracy == Accuracy::kSinglePrecision ? 500 : 10);
   switch (detector_.accuracy) {
     case Accuracy::kExact:
     case Accuracy::kLibrary:
+    case Accuracy::kSinglePrecision:
     case Accuracy::kPaper:
     case Accuracy::kConservative:
       EXPECT_EQ(missed, 0);
@@ -155,8 +158,12 @@ Workload next_to_touching(int dimension, double gap) {
 TEST_P(Detectors, TellHitFromFreeRightNextToTouching) {
   if (detector_.accuracy == Accuracy::kSampled) return;
   const bool in_float = detector_.accuracy == Accuracy::kConservative;
+  const bool in_single = detector_.accuracy == Accuracy::kSinglePrecision;
   const double gap = detector_.accuracy == Accuracy::kExact || in_float ? 1e-11 : 2e-6;
-  for (const double signed_gap : {in_float ? 2e-4 : gap, -gap}) {
+  for (const double signed_gap : {in_float    ? 2e-4
+                                  : in_single ? 1e-3
+                                              : gap,
+                                  in_single ? -1e-5 : -gap}) {
     const Workload workload = next_to_touching(GetParam().dimension, signed_gap);
     const std::unique_ptr<Detection> detection = detector_.prepare(workload);
     int wrong = 0;
@@ -198,7 +205,10 @@ TEST(OwnDetectors, DoNotAllocate) {
   if (!test_support::kCountsAllocations) GTEST_SKIP() << "the sanitizer brings its own malloc";
   int checked = 0;
   for (const auto& [detector, dimension] : cases()) {
-    if (detector->accuracy == Accuracy::kLibrary) continue;
+    if (detector->accuracy == Accuracy::kLibrary ||
+        detector->accuracy == Accuracy::kSinglePrecision) {
+      continue;
+    }
     const Workload workload =
         make_workload({.dimension = dimension, .links = 9, .obstacles = 3}, 23);
     const std::unique_ptr<Detection> detection = detector->prepare(workload);
@@ -208,7 +218,7 @@ TEST(OwnDetectors, DoNotAllocate) {
     EXPECT_EQ(guard.allocations(), 0u) << detector->name;
     ++checked;
   }
-  EXPECT_EQ(checked, 20);
+  EXPECT_EQ(checked, 22);
 }
 
 /// Lemma 1 as stated, with shadows judged in 113 bits: a hit is what hits in all three planes.

@@ -1,0 +1,27 @@
+/// @file
+/// The loop of `least_squared_distances`, compiled once for every instruction set: plain numbers only.
+#pragma once
+
+#include "baselines/closest/point_arrays.hpp"
+
+namespace bqsa::baselines {
+
+/// Points that lie side by side: as many as the widest vector has doubles.
+inline constexpr int kPointBlock = 8;
+
+struct TestPointPass {
+  const double* blocks;  ///< block by block, row by row, coordinate by coordinate
+  int dimension;
+  int block_count;
+  int rows;  ///< a block
+  PointArrays points;
+  int count;    ///< of `points` that belong together
+  bool across;  ///< whether the least of all lanes is wanted
+  double*
+      least;  ///< block by block, group of points by group of points; eight each unless `across`
+};
+
+/// With the instruction set in use.
+void run_test_point_pass(const TestPointPass& pass);
+
+}  // namespace bqsa::baselines
