@@ -28,6 +28,8 @@ class ObstacleField {
   /// @param neighbours  of the same obstacles, by space; if none are given, the field makes its own
   void assign(const std::vector<Obstacle>& obstacles, WorkCounters& counters, double clearance = 0,
               std::shared_ptr<NeighbourLists> neighbours = nullptr);
+  void assign(const std::vector<Obstacle>&&, WorkCounters&, double = 0,
+              std::shared_ptr<NeighbourLists> = nullptr) = delete;
 
   /// From now on the obstacles are where they are at this tick.
   void go_to(int tick) { tick_ = tick; }

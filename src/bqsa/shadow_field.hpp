@@ -37,6 +37,8 @@ class ShadowField {
   /// @param index      of the same obstacles; if none is given, the field makes its own
   void assign(const std::vector<Obstacle>& obstacles, WorkCounters& counters, double clearance = 0,
               std::shared_ptr<const ObstacleIndex> index = nullptr);
+  void assign(const std::vector<Obstacle>&&, WorkCounters&, double = 0,
+              std::shared_ptr<const ObstacleIndex> = nullptr) = delete;
 
   /// From now on the obstacles are where they are at this tick.
   void go_to(int tick) { tick_ = tick; }

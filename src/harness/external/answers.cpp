@@ -110,12 +110,13 @@ auto named(const AnswerValue& value, const Enums& known) -> typename Enums::valu
 void read_counters(const AnswerValue& answer, WorkCounters& counters) {
   if (!answer.has("counters")) return;
   const AnswerValue value = answer["counters"];
-  value.expect_keys({"quadratics", "point_pairs", "distance_queries", "kinematics", "jacobians",
-                     "linear_solves", "iterations"});
+  value.expect_keys({"quadratics", "bounds", "point_pairs", "distance_queries", "kinematics",
+                     "jacobians", "linear_solves", "iterations"});
   const auto read = [&value](const char* key, std::uint64_t& count) {
     if (value.has(key)) count = value[key].count();
   };
   read("quadratics", counters.quadratics);
+  read("bounds", counters.bounds);
   read("point_pairs", counters.point_pairs);
   read("distance_queries", counters.distance_queries);
   read("kinematics", counters.kinematics);

@@ -11,7 +11,8 @@
 namespace bqsa::harness {
 
 /// How far the nominal motion stays away from every bystander [m]: more than the distance at which any
-/// method starts to react, so that each of them looks at all pairs, every tick, and does nothing.
+/// method starts to react, so that each of them looks every tick at all pairs that it cannot leave out, and
+/// does nothing.
 inline constexpr double kBystanderClearance = 0.25;
 
 /// Ticks after which the desired tip is back at its start.

@@ -116,12 +116,12 @@ std::string angles_text(const JointVector& q) {
 /// What one step added to the counters.
 std::string work_text(const WorkCounters& before, const WorkCounters& after) {
   return fmt::format(
-      "{} quadratics, {} point pairs, {} distance queries, {} forward kinematics, {} Jacobians, "
-      "{} linear solves, {} iterations",
-      after.quadratics - before.quadratics, after.point_pairs - before.point_pairs,
-      after.distance_queries - before.distance_queries, after.kinematics - before.kinematics,
-      after.jacobians - before.jacobians, after.linear_solves - before.linear_solves,
-      after.iterations - before.iterations);
+      "{} quadratics, {} bounds, {} point pairs, {} distance queries, {} forward kinematics, "
+      "{} Jacobians, {} linear solves, {} iterations",
+      after.quadratics - before.quadratics, after.bounds - before.bounds,
+      after.point_pairs - before.point_pairs, after.distance_queries - before.distance_queries,
+      after.kinematics - before.kinematics, after.jacobians - before.jacobians,
+      after.linear_solves - before.linear_solves, after.iterations - before.iterations);
 }
 
 void print_answer(const StepOutput& output, const Problem& problem, std::ostream& out) {

@@ -156,7 +156,8 @@ struct WorkQuantity {
   const char* name;
   std::uint64_t WorkCounters::*count;
 };
-constexpr std::array<WorkQuantity, 7> kWork{{{"quadratics", &WorkCounters::quadratics},
+constexpr std::array<WorkQuantity, 8> kWork{{{"quadratics", &WorkCounters::quadratics},
+                                             {"bounds", &WorkCounters::bounds},
                                              {"point pairs", &WorkCounters::point_pairs},
                                              {"distance queries", &WorkCounters::distance_queries},
                                              {"kinematics", &WorkCounters::kinematics},

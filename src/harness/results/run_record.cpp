@@ -143,6 +143,7 @@ Json judged_json(const Problem& problem, const Judgement& judgement) {
 
 Json counters_json(const WorkCounters& counters) {
   return {{"quadratics", counters.quadratics},
+          {"bounds", counters.bounds},
           {"point_pairs", counters.point_pairs},
           {"distance_queries", counters.distance_queries},
           {"kinematics", counters.kinematics},

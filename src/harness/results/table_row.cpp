@@ -169,6 +169,7 @@ LogHistogram histogram(const RecordValue& pairs) {
 
 WorkCounters work_counters(const RecordValue& counters) {
   return {.quadratics = counters["quadratics"].whole(),
+          .bounds = counters.has("bounds") ? counters["bounds"].whole() : 0,  // not in old records
           .point_pairs = counters["point_pairs"].whole(),
           .distance_queries = counters["distance_queries"].whole(),
           .kinematics = counters["kinematics"].whole(),

@@ -85,7 +85,8 @@ TYPED_TEST(LinkReleaseTest, ProximityWithAClearanceIsTheDistanceAndItsGradient) 
     const JointVector q = random_posture(generator, arm.joints());
     const Ellipsoid shape = this->as_solid(random_ellipsoid<kDim>(generator, 0.05, 0.3));
     ObstacleField<kDim> field;
-    field.assign({{"o", shape}}, counters, 1);
+    const std::vector<Obstacle> obstacles = {{"o", shape}};
+    field.assign(obstacles, counters, 1);
     field.keep(10);
     ChainPose pose;
     arm.forward(q, pose);
@@ -117,14 +118,16 @@ TYPED_TEST(LinkReleaseTest, ProximityByTheQuadraticIsTheDistanceAndItsGradientNe
     arm.forward(q, pose);
     ObstacleField<kDim> field;
     for (const Link& link : arm.links()) {
-      field.assign({{"o", somewhere}}, counters, 1);
+      const std::vector<Obstacle> elsewhere = {{"o", somewhere}};
+      field.assign(elsewhere, counters, 1);
       field.keep(10);
       const auto far = field.proximity(pose, link, 0);
       if (far.distance < 1e-3) continue;
       Eigen::Vector3d way = Eigen::Vector3d::Zero();
       way.head<kDim>() = (far.distance - kNear) * far.normal;
       const Ellipsoid shape(somewhere.center() + way, somewhere.semi_axes(), somewhere.rotation());
-      field.assign({{"o", shape}}, counters);
+      const std::vector<Obstacle> obstacles = {{"o", shape}};
+      field.assign(obstacles, counters);
       const auto proximity = field.proximity(pose, link, 0);
       ASSERT_NEAR(proximity.distance, kNear, 0.01 * kNear) << "case " << i;
       const JointVector error =

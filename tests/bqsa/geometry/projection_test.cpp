@@ -191,8 +191,9 @@ TEST(ShadowField, AsksThePlanesInTurnUntilOneSaysFree) {
     asked.hit(p, p);
     return asked.quadratics();
   };
-  EXPECT_EQ(cost({1, 0, 0}), 1U);        // apart in xy
-  EXPECT_EQ(cost({0, 0, 1}), 2U);        // apart in yz
+  EXPECT_EQ(cost({1, 0, 0}), 0U);        // beside its box
+  EXPECT_EQ(cost({0.08, 0.08, 0}), 1U);  // apart in xy
+  EXPECT_EQ(cost({0, 0.08, 0.08}), 2U);  // apart in yz
   EXPECT_EQ(cost({0.08, 0, 0.08}), 3U);  // apart in zx only
   EXPECT_EQ(cost({0, 0, 0}), 3U);        // a hit
 }

@@ -72,7 +72,7 @@ std::set<std::string> documented_keys() {
   all.merge(with_prefix("disturbance.", "joint_noise_rad latency_ticks"));
   all.merge(with_prefix("ticks.clamped_pairs[].", "link obstacle ticks"));
   all.merge(with_prefix("counters.",
-                        "quadratics point_pairs distance_queries kinematics jacobians "
+                        "quadratics bounds point_pairs distance_queries kinematics jacobians "
                         "linear_solves iterations"));
   all.merge(with_prefix(
       "times.",
