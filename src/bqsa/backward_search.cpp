@@ -7,12 +7,13 @@ namespace bqsa {
 void BackwardSearch::prepare(const Problem& problem) {
   problem_ = &problem;
   counters_ = {};
-  lean_ = JointVector::Zero(problem.chain.joints());
+  answered_ = false;
+  lean(JointVector::Zero(problem.chain.joints()));
   certificate_.assign(problem, counters_);
 }
 
 void BackwardSearch::step(const StepInput& input, StepOutput& output) {
-  output = {};
+  clear(output);
   increments_left_ = settings_.max_increments;
   go_to(input.tick);
 
@@ -45,8 +46,10 @@ Infeasible BackwardSearch::search(const StepInput& input, const JointVector& q_p
     output.clamp_count = 0;
     output.link = 0;
     output.obstacle = -1;
-    q_ = q_predicted;
-    forward();
+    if (q_ != q_predicted) {
+      q_ = q_predicted;
+      forward();
+    }
     const Infeasible reason =
         way == Way::kOneByOne ? free_links(input, output) : release_links(input, output);
     if (reason != Infeasible::kNot) {
@@ -58,6 +61,7 @@ Infeasible BackwardSearch::search(const StepInput& input, const JointVector& q_p
     motion = finish(input, q_predicted, output);  // 5, 6
     if (motion.certified) {
       output.q = q_;
+      answered_ = true;
       const double tip_error = (input.p_WT_desired - pose_.tip()).norm();
       output.state = tip_error > problem_->tolerance ? TickState::kUnclaimed
                      : output.clamp_count > 0        ? TickState::kClamped
@@ -80,6 +84,7 @@ bool BackwardSearch::fit(int tick, const Eigen::Vector3d& p_WT, double distance,
                          const JointBox& box, JointVector& q) {
   go_to(tick);
   keep(problem_->link_radius + problem_->margin + distance);
+  answered_ = false;
   q_ = q;
   forward();
   if (!free_together(p_WT, box, nullptr)) return false;
@@ -87,34 +92,53 @@ bool BackwardSearch::fit(int tick, const Eigen::Vector3d& p_WT, double distance,
   return true;
 }
 
+/// q_ = q, with its pose; that of the last answer is known.
+void BackwardSearch::start_at(const JointVector& q) {
+  if (!answered_ || q_ != q) {
+    q_ = q;
+    forward();
+  }
+  answered_ = false;
+  pose_start_ = pose_;
+}
+
 bool BackwardSearch::predict(const StepInput& input) {
   const SerialChain& chain = problem_->chain;
-  const int n = chain.joints();
-  q_ = input.q;
-  forward();
+  start_at(input.q);
   chain.jacobian(pose_, chain.points() - 1, J_tip_);
   ++counters_.jacobians;
+  ik_start_.assign(J_tip_, settings_.ik);
+  ++counters_.linear_solves;
   x_dot_ = (input.p_WT_desired - pose_.tip()).head(chain.dimension()) / problem_->dt;
-  q_ = hybrid_step(input.q, JointVector::Ones(n), lean_);
+
+  JointVector q_dot;
+  ik_start_.solve(x_dot_, q_dot);
+  if (leans_) {
+    JointVector self_motion;
+    ik_start_.project(lean_, self_motion);
+    q_dot += self_motion;
+  }
+  q_ += problem_->dt * q_dot;
   forward();
-  return settings_.corrections == 0 ? q_.allFinite() : correct_tip(input);
+  return settings_.corrections == 0 ? q_.allFinite() : correct_tip(input, ik_start_);
 }
 
 MotionCertificate::Result BackwardSearch::finish(const StepInput& input, const JointVector&,
                                                  StepOutput&) {
-  return certificate_.certify(input.tick, input.q, q_);
+  return certify(input);
 }
 
 JointVector BackwardSearch::hybrid_step(const JointVector& q, const JointVector& weights,
                                         const JointVector& phi) {
-  solve_hybrid_ik(J_tip_, x_dot_, weights, phi, settings_.ik, ik_);
+  HybridIkResult ik;
+  solve_hybrid_ik(J_tip_, x_dot_, weights, phi, settings_.ik, ik);
   ++counters_.linear_solves;
-  return q + problem_->dt * ik_.q_dot;
+  return q + problem_->dt * ik.q_dot;
 }
 
-bool BackwardSearch::correct_tip(const StepInput& input) {
-  const double error =
-      close_tip(problem_->chain, input.p_WT_desired, problem_->dt, settings_, q_, pose_, counters_);
+bool BackwardSearch::correct_tip(const StepInput& input, const TrackingIk& ik) {
+  const double error = close_tip(problem_->chain, input.p_WT_desired, problem_->dt, settings_, ik,
+                                 q_, pose_, counters_);
   return error <= problem_->tolerance;
 }
 

@@ -26,7 +26,10 @@ class BackwardSearch : public ReactiveMethod {
   void step(const StepInput& input, StepOutput& output) final;
 
   /// From now on the predictor adds the part of phi [rad/s] that does not move the tip.
-  void lean(const JointVector& phi) { lean_ = phi; }
+  void lean(const JointVector& phi) {
+    lean_ = phi;
+    leans_ = !phi.isZero(0);
+  }
 
   /// Moves q [rad] by the least self-motion until it is in the box, its tip at p_WT [m], and all links
   /// keep link radius, margin and `distance` [m] from the obstacles of that tick. False, and q as it
@@ -55,11 +58,17 @@ class BackwardSearch : public ReactiveMethod {
   virtual MotionCertificate::Result finish(const StepInput& input, const JointVector& q_predicted,
                                            StepOutput& output);
 
+  /// The motion from where the tick starts to q_.
+  MotionCertificate::Result certify(const StepInput& input) {
+    return certificate_.certify(input.tick, input.q, pose_start_, q_, pose_);
+  }
+
   /// q + dt hybrid_ik(...) with the tip's Jacobian and velocity of this tick (Eqs. 17, 18).
   JointVector hybrid_step(const JointVector& q, const JointVector& weights, const JointVector& phi);
 
   /// Moves q_ until the tip is on its path. False if it stays off it.
-  bool correct_tip(const StepInput& input);
+  /// @param ik  of the tip's Jacobian at a configuration close to q_
+  bool correct_tip(const StepInput& input, const TrackingIk& ik);
 
   /// pose_ of q_.
   void forward();
@@ -69,21 +78,25 @@ class BackwardSearch : public ReactiveMethod {
 
   BqsaSettings settings_;
   const Problem* problem_ = nullptr;
-  MotionCertificate certificate_;
   JointVector q_;   ///< configuration in hand [rad]
   ChainPose pose_;  ///< of q_
-  HybridIkResult ik_;
 
  private:
   enum class Way { kOneByOne, kTogether };
   Infeasible search(const StepInput& input, const JointVector& q_predicted, Way way,
                     StepOutput& output);
   Infeasible release_links(const StepInput& input, StepOutput& output);
+  void start_at(const JointVector& q);
   bool predict(const StepInput& input);
 
+  MotionCertificate certificate_;
+  ChainPose pose_start_;  ///< at the start of the tick
+  bool answered_ = false;  ///< whether q_ is the last answer
   TaskJacobian J_tip_;  ///< at the start of the tick
+  TrackingIk ik_start_;  ///< of J_tip_
   TaskVector x_dot_;    ///< [m/s]
   JointVector lean_;    ///< [rad/s]
+  bool leans_ = false;  ///< whether it is not zero
   int increments_left_ = 0;
 };
 

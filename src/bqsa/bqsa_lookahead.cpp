@@ -80,14 +80,14 @@ void BqsaLookahead::step(const StepInput& input, StepOutput& output) {
     hold(input.q, dead_end_.reason, dead_end_.link, dead_end_.obstacle, output);
   } else {
     plan_.drop_first();
-    output = plan_.at(input.tick);
+    copy(plan_.at(input.tick), output);
   }
   counters_ = certificate_counters_ + search_->counters() + unhurried_search_->counters();
 }
 
 void BqsaLookahead::Plan::restart(int tick, const JointVector& q) {
   first_ = last_ = tick;
-  at(tick) = {};
+  clear(at(tick));
   at(tick).q = q;
 }
 

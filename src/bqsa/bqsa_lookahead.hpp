@@ -65,7 +65,7 @@ class BqsaLookahead final : public ReactiveMethod {
     const StepOutput& at(int tick) const {
       return rows_[static_cast<std::size_t>(tick) % rows_.size()];
     }
-    void add(const StepOutput& output) { at(++last_) = output; }
+    void add(const StepOutput& output) { copy(output, at(++last_)); }
     void drop_first() { ++first_; }
     void cut_after(int tick) { last_ = tick; }
 

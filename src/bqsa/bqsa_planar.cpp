@@ -132,14 +132,14 @@ MotionCertificate::Result BqsaPlanar::finish(const StepInput& input, const Joint
     q_ = hybrid_step(input.q, weights, phi);  // Eqs. 17, 18
     forward();
     if (links_free(pose_, 1, n) && forbidden_step(*problem_, input.q, q_) == Infeasible::kNot) {
-      const MotionCertificate::Result motion = certificate_.certify(input.tick, input.q, q_);
+      const MotionCertificate::Result motion = certify(input);
       if (motion.certified) return motion;
     }
     output.guard_fired = true;
     q_ = q_clamped;
     forward();
   }
-  return certificate_.certify(input.tick, input.q, q_);
+  return certify(input);
 }
 
 /// Whether the links numbered lowest .. highest hit nothing.

@@ -5,11 +5,9 @@
 
 #include <Eigen/Core>
 
-#include "bqsa/kinematics/serial_chain.hpp"
+#include "bqsa/row_svd.hpp"
 
 namespace bqsa {
-
-using TaskVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxTaskRows, 1>;
 
 struct HybridIkSettings {
   double singular_threshold = 0.05;  ///< s_0: smallest singular value without damping [m]
@@ -45,5 +43,41 @@ struct HybridIkResult {
 void solve_hybrid_ik(const TaskJacobian& J, const TaskVector& x_dot, const JointVector& weights,
                      const JointVector& phi, const HybridIkSettings& settings,
                      HybridIkResult& result);
+
+/// The same with W = I for one Jacobian, asked for any number of velocities.
+///
+/// Where no velocity can call for damping, because J Jᵀ - s_0² I is positive definite, q_dot is
+/// phi + J⁺ (x_dot - J phi) by the inverse of J Jᵀ; it differs from the formula by rounding, at most
+/// about 1e-12 of its length. Elsewhere it is the formula itself.
+class TrackingIk {
+ public:
+  /// @param J  of up to kMaxTaskRows rows
+  /// Does not allocate.
+  void assign(const TaskJacobian& J, const HybridIkSettings& settings);
+
+  /// q_dot [rad/s] for x_dot [m/s] and phi = 0.
+  /// @param residual_bound  eps, in place of that of the settings [m/s]
+  void solve(const TaskVector& x_dot, double residual_bound, JointVector& q_dot) const;
+  void solve(const TaskVector& x_dot, JointVector& q_dot) const {
+    solve(x_dot, settings_.residual_bound, q_dot);
+  }
+
+  /// What is left of phi in the self-motions, for x_dot = 0.
+  void project(const JointVector& phi, JointVector& q_dot) const;
+
+ private:
+  template <int Rows>
+  bool invert(const TaskJacobian& J);
+  template <int Rows>
+  void add_pseudo_inverse(const TaskVector& x_dot, JointVector& q_dot) const;
+
+  HybridIkSettings settings_;
+  int rows_ = 0;
+  int joints_ = 0;
+  bool regular_ = false;  ///< whether the inverse is used; then not the decomposition
+  std::array<std::array<double, kMaxJoints>, 3> J_;  ///< by rows
+  Eigen::Matrix3d inverse_;                          ///< of J Jᵀ, of the size of the task
+  RowSvd svd_;
+};
 
 }  // namespace bqsa

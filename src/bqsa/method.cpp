@@ -17,6 +17,26 @@ std::string why_not_applicable(const Capabilities& capabilities, const Problem& 
   return {};
 }
 
+void clear(StepOutput& output) {
+  output.state = TickState::kFree;
+  output.reason = Infeasible::kNot;
+  output.link = 0;
+  output.obstacle = -1;
+  output.clamp_count = 0;
+  output.guard_fired = false;
+}
+
+void copy(const StepOutput& from, StepOutput& to) {
+  to.q = from.q;
+  to.state = from.state;
+  to.reason = from.reason;
+  to.link = from.link;
+  to.obstacle = from.obstacle;
+  to.clamp_count = from.clamp_count;
+  std::copy_n(from.clamps.begin(), from.clamp_count, to.clamps.begin());
+  to.guard_fired = from.guard_fired;
+}
+
 void hold(const JointVector& q_last, Infeasible reason, int link, int obstacle,
           StepOutput& output) {
   output.clamp_count = 0;

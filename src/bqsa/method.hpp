@@ -74,10 +74,17 @@ struct StepOutput {
   Infeasible reason = Infeasible::kNot;
   int link = 0;         ///< infeasible: the link that could not be freed, else 0
   int obstacle = -1;    ///< infeasible: index of its obstacle, else -1
-  int clamp_count = 0;  ///< valid entries of `clamps`
+  int clamp_count = 0;  ///< valid entries of `clamps`; those beyond say nothing
   std::array<Clamp, kMaxClamps> clamps{};
   bool guard_fired = false;  ///< the paper variant fell back to the exact configuration
 };
+
+/// Sets everything but q and the clamps beyond clamp_count, which cost more than a control step, to
+/// its default.
+void clear(StepOutput& output);
+
+/// Copies everything but the clamps beyond clamp_count.
+void copy(const StepOutput& from, StepOutput& to);
 
 /// Ends a tick without a motion: the arm holds `q_last`, its last safe configuration.
 void hold(const JointVector& q_last, Infeasible reason, int link, int obstacle, StepOutput& output);

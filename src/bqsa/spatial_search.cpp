@@ -44,10 +44,9 @@ bool SpatialSearch::self_motion(const JointVector& direction, JointVector& phi) 
   const SerialChain& chain = problem_->chain;
   chain.jacobian(pose_, chain.points() - 1, J_tip_);
   ++counters_.jacobians;
-  solve_hybrid_ik(J_tip_, TaskVector::Zero(3), JointVector::Ones(chain.joints()), direction,
-                  settings_.ik, ik_);
+  ik_.assign(J_tip_, settings_.ik);
   ++counters_.linear_solves;
-  phi = ik_.q_dot;
+  ik_.project(direction, phi);
   return phi.norm() > kVanishing * direction.norm();
 }
 
@@ -55,7 +54,7 @@ bool SpatialSearch::move(const StepInput& input, const JointVector& from,
                          const JointVector& change) {
   q_ = from + change;
   forward();
-  return correct_tip(input);
+  return correct_tip(input, ik_);
 }
 
 void SpatialSearch::settle(const StepInput& input, const Link& link, const JointVector& colliding,

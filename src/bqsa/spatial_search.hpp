@@ -29,6 +29,7 @@ class SpatialSearch : public BackwardSearch {
   bool self_motion(const JointVector& direction, JointVector& phi);
 
   /// q_ = from + change, then corrected until the tip is on its path. False if it stays off it.
+  /// To be called after `self_motion` at `from`.
   bool move(const StepInput& input, const JointVector& from, const JointVector& change);
 
   /// Takes back as much of the last move, made from `colliding`, as leaves the link free.
@@ -41,7 +42,8 @@ class SpatialSearch : public BackwardSearch {
  private:
   Infeasible free_links(const StepInput& input, StepOutput& output) final;
 
-  TaskJacobian J_tip_;  ///< of pose_
+  TaskJacobian J_tip_;  ///< where `self_motion` was last asked
+  TrackingIk ik_;       ///< of J_tip_
 };
 
 }  // namespace bqsa

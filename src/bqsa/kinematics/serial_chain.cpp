@@ -48,17 +48,22 @@ SerialChain::SerialChain(ChainDescription description) : description_(std::move(
   const bool tool = description_.p_LT.squaredNorm() > 0;
   joints_ = static_cast<int>(description_.rows.size());
   points_ = joints_ + 1 + (tool ? 1 : 0);
+  in_plane_ = dimension() == 2 && !modified;
 
   // Link i ends in the origin of frame i. By the modified convention that origin lies on the axis
   // of joint i, so joint i does not move it.
   moving_joints_.assign(static_cast<std::size_t>(points_), joints_);
   Eigen::VectorXd length(points_ - 1);
-  cos_sin_alpha_.resize(joints_, 2);
   for (int j = 0; j < joints_; ++j) {
     const DhRow& row = description_.rows[static_cast<std::size_t>(j)];
     moving_joints_[static_cast<std::size_t>(j)] = modified ? std::max(j - 1, 0) : j;
     length(j) = std::hypot(row.a, row.d);
-    cos_sin_alpha_.row(j) << std::cos(row.alpha), std::sin(row.alpha);
+    const auto i = static_cast<std::size_t>(j);
+    offset_[i] = row.offset;
+    a_[i] = row.a;
+    d_[i] = row.d;
+    cos_alpha_[i] = std::cos(row.alpha);
+    sin_alpha_[i] = std::sin(row.alpha);
   }
   moving_joints_[static_cast<std::size_t>(joints_)] = modified ? joints_ - 1 : joints_;
   if (tool) length(joints_) = description_.p_LT.norm();
@@ -78,25 +83,40 @@ SerialChain::SerialChain(ChainDescription description) : description_(std::move(
 }
 
 void SerialChain::forward(const JointVector& q, ChainPose& pose) const {
-  const bool modified = description_.convention == DhConvention::kModified;
+  sine_cosine(q.data(), offset_, joints_, pose.sine, pose.cosine);
+  place(pose);
+}
+
+void SerialChain::forward_from(const JointVector& q_from, const JointVector& q,
+                               ChainPose& pose) const {
+  if (!turn_slightly(q_from.data(), q.data(), joints_, pose.sine, pose.cosine)) {
+    sine_cosine(q.data(), offset_, joints_, pose.sine, pose.cosine);
+  }
+  place(pose);
+}
+
+/// Everything but the sines and cosines of the pose, from them.
+void SerialChain::place(ChainPose& pose) const {
   pose.p_WO.resize(3, points_);
   pose.axis_W.resize(3, joints_);
   pose.pivot_W.resize(3, joints_);
+  if (in_plane_) return place_in_plane(pose);
 
+  const bool modified = description_.convention == DhConvention::kModified;
   Eigen::Matrix3d R = description_.R_WB;
   Eigen::Vector3d p = description_.p_WB;
   pose.p_WO.col(0) = p;
   for (int j = 0; j < joints_; ++j) {
-    const DhRow& row = description_.rows[static_cast<std::size_t>(j)];
-    const double c = std::cos(q(j) + row.offset);
-    const double s = std::sin(q(j) + row.offset);
-    const double ca = cos_sin_alpha_(j, 0);
-    const double sa = cos_sin_alpha_(j, 1);
+    const auto i = static_cast<std::size_t>(j);
+    const double c = pose.cosine[i];
+    const double s = pose.sine[i];
+    const double ca = cos_alpha_[i];
+    const double sa = sin_alpha_[i];
     const Eigen::Vector3d x = R.col(0), y = R.col(1), z = R.col(2);
     if (modified) {
       const Eigen::Vector3d y1 = ca * y + sa * z;
       const Eigen::Vector3d z1 = ca * z - sa * y;
-      p += row.a * x + row.d * z1;
+      p += a_[i] * x + d_[i] * z1;
       pose.axis_W.col(j) = z1;
       pose.pivot_W.col(j) = p;
       R.col(0) = c * x + s * y1;
@@ -107,7 +127,7 @@ void SerialChain::forward(const JointVector& q, ChainPose& pose) const {
       const Eigen::Vector3d y1 = c * y - s * x;
       pose.axis_W.col(j) = z;
       pose.pivot_W.col(j) = p;
-      p += row.d * z + row.a * x1;
+      p += d_[i] * z + a_[i] * x1;
       R.col(0) = x1;
       R.col(1) = ca * y1 + sa * z;
       R.col(2) = ca * z - sa * y1;
@@ -117,13 +137,46 @@ void SerialChain::forward(const JointVector& q, ChainPose& pose) const {
   if (points_ > joints_ + 1) pose.p_WO.col(joints_ + 1) = p + R * description_.p_LT;
 }
 
+/// The same for a planar arm in standard form: links are complex numbers, and joints turn them.
+void SerialChain::place_in_plane(ChainPose& pose) const {
+  double x = description_.R_WB(0, 0);  // of the link's direction
+  double y = description_.R_WB(1, 0);
+  Eigen::Vector3d p = description_.p_WB;
+  pose.p_WO.col(0) = p;
+  for (int j = 0; j < joints_; ++j) {
+    const auto i = static_cast<std::size_t>(j);
+    const double x1 = pose.cosine[i] * x - pose.sine[i] * y;
+    y = pose.cosine[i] * y + pose.sine[i] * x;
+    x = x1;
+    pose.axis_W.col(j) = Eigen::Vector3d::UnitZ();
+    pose.pivot_W.col(j) = p;
+    p.x() += a_[i] * x;
+    p.y() += a_[i] * y;
+    pose.p_WO.col(j + 1) = p;
+  }
+  if (points_ > joints_ + 1) {
+    const Eigen::Vector3d& tool = description_.p_LT;
+    pose.p_WO.col(joints_ + 1) << p.x() + x * tool.x() - y * tool.y(),
+        p.y() + y * tool.x() + x * tool.y(), 0;
+  }
+}
+
 void SerialChain::jacobian(const ChainPose& pose, int point, TaskJacobian& J) const {
-  J.setZero(dimension(), joints_);
+  J.resize(dimension(), joints_);
+  const int moving = moving_joints(point);
+  J.rightCols(joints_ - moving).setZero();
   const Eigen::Vector3d p = pose.p_WO.col(point);
-  for (int j = 0; j < moving_joints(point); ++j) {
+  if (dimension() == 2) {
+    for (int j = 0; j < moving; ++j) {
+      J(0, j) = pose.pivot_W(1, j) - p.y();
+      J(1, j) = p.x() - pose.pivot_W(0, j);
+    }
+    return;
+  }
+  for (int j = 0; j < moving; ++j) {
     const Eigen::Vector3d axis = pose.axis_W.col(j);
     const Eigen::Vector3d arm = p - pose.pivot_W.col(j);
-    J.col(j) = axis.cross(arm).head(dimension());
+    J.col(j) = axis.cross(arm);
   }
 }
 

@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "bqsa/kinematics/chain_description.hpp"
+#include "bqsa/kinematics/sine_cosine.hpp"
 
 namespace bqsa {
 
-inline constexpr int kMaxJoints = 16;
+inline constexpr int kMaxJoints = kMaxAngles;
 inline constexpr int kMaxLinks = kMaxJoints + 1;  ///< a tool is one more link
 inline constexpr int kMaxPoints = kMaxLinks + 1;
 inline constexpr int kMaxTaskRows = 6;
@@ -39,6 +40,7 @@ struct ChainPose {
       p_WO;  ///< column k is the paper's O_{k+1}: the base, each frame's origin, the tip [m]
   Columns<kMaxJoints> axis_W;   ///< column j is the unit axis of joint j
   Columns<kMaxJoints> pivot_W;  ///< column j is a point on the axis of joint j [m]
+  Angles sine, cosine;          ///< of the joint angles, offsets included
 
   Eigen::Vector3d tip() const { return p_WO.rightCols<1>(); }
 };
@@ -60,6 +62,10 @@ class SerialChain {
   /// All end-points and joint axes for q [rad].
   void forward(const JointVector& q, ChainPose& pose) const;
 
+  /// The same at less cost where the joints are close to q_from (`kSlightTurn`): `pose` is that of
+  /// q_from on entry. Answers differ from those of `forward` by rounding.
+  void forward_from(const JointVector& q_from, const JointVector& q, ChainPose& pose) const;
+
   /// Only joints 0 .. moving_joints(k) - 1 can move point k.
   int moving_joints(int point) const { return moving_joints_[static_cast<std::size_t>(point)]; }
 
@@ -71,13 +77,17 @@ class SerialChain {
   double reach(int joint, int point) const { return reach_(joint, point); }
 
  private:
+  void place(ChainPose& pose) const;
+  void place_in_plane(ChainPose& pose) const;
+
   ChainDescription description_;
   int joints_;
   int points_;
+  bool in_plane_;  ///< of dimension 2, in standard form
+  Angles offset_{}, a_{}, d_{}, cos_alpha_{}, sin_alpha_{};
   std::vector<Link> links_;
   std::vector<int> moving_joints_;
-  Eigen::Matrix<double, Eigen::Dynamic, 2> cos_sin_alpha_;  // a row a joint
-  Eigen::MatrixXd reach_;                                   // joints x points
+  Eigen::MatrixXd reach_;  // joints x points
 };
 
 }  // namespace bqsa
