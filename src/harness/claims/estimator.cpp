@@ -37,9 +37,10 @@ const FigureDeclaration* Estimator::find_figure(std::string_view figure) const {
 const std::vector<Estimator>& estimators() {
   static const std::vector<Estimator> kEstimators = [] {
     std::vector<Estimator> all;
-    for (const auto& part : {counting_estimators(), timing_estimators(), geometry_estimators(),
-                             kinematics_estimators(), run_estimators(), behaviour_estimators(),
-                             speed_estimators(), crowd_estimators(), companion_estimators()}) {
+    for (const auto& part :
+         {counting_estimators(), timing_estimators(), geometry_estimators(),
+          kinematics_estimators(), run_estimators(), behaviour_estimators(), speed_estimators(),
+          answer_estimators(), crowd_estimators(), companion_estimators()}) {
       all.insert(all.end(), part.begin(), part.end());
     }
     return all;

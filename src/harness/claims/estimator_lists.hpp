@@ -14,7 +14,8 @@ std::vector<Estimator> geometry_estimators();    ///< lemmas and categories, in 
 std::vector<Estimator> kinematics_estimators();  ///< the hybrid inverse kinematics
 std::vector<Estimator> run_estimators();         ///< runs of methods on scenarios, judged
 std::vector<Estimator> behaviour_estimators();   ///< what happens within a run, tick by tick
-std::vector<Estimator> crowd_estimators();       ///< many obstacles, many pairs
+std::vector<Estimator> answer_estimators();      ///< batches against extended precision
+std::vector<Estimator> crowd_estimators();       ///< many obstacles
 std::vector<Estimator> companion_estimators();   ///< what other programs of the build find
 std::vector<Estimator> speed_estimators();       ///< how close to the machine's limits
 

@@ -106,7 +106,7 @@ CrowdedSteps run_crowded(const MethodEntry& method, int dimension, int obstacles
   problem.obstacles = draw_crowd(problem, obstacles);
   CrowdedSteps result{.obstacles = obstacles};
   const double before = wall_seconds();
-  ControlLoop loop(method, problem);
+  ControlLoop loop(with_defaults(method), problem);
   result.prepare_s = wall_seconds() - before;
   loop.run(2 * kBystanderPeriod);
   const WorkCounters warm = loop.counters();

@@ -22,9 +22,18 @@ constexpr int kSparsePointPairs = 12;  ///< NM just below the paper's crossover 
 constexpr const char* kTestPoints = "test_points_vectorized";
 
 /// What is compared with batches. All take their time of the same workload.
-constexpr const char* kDetectors[] = {
-    "bqsa",           "fcl_collide_libccd", "fcl_collide_indep", "fcl_distance_libccd",
-    "exact_distance", "fcl_distance_indep", "ccd_gjk",           "ccd_mpr"};
+constexpr const char* kDetectors[] = {"bqsa",
+                                      "bqsa_batch",
+                                      "bqsa_batch_float",
+                                      "fcl_collide_libccd",
+                                      "fcl_collide_indep",
+                                      "fcl_distance_libccd",
+                                      "fcl_distance_indep",
+                                      "exact_distance",
+                                      "exact_distance_batched",
+                                      "bullet_gjk",
+                                      "ccd_gjk",
+                                      "ccd_mpr"};
 
 Workload workload_with(const baselines::TestPointCounts& test_points) {
   WorkloadSize size = kSpeedSize;
