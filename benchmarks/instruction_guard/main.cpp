@@ -1,8 +1,10 @@
 // Runs one kernel a number of times and nothing else, for tools/instruction_guard.py, which counts
-// instructions under callgrind. Kernels whose code depends on the processor (vector clones) are left out.
+// instructions under callgrind. Batches run with AVX2, the most that valgrind knows; their instruction set is part of the
+// toolchain. Kernels whose code depends on the processor in another way (vector clones) are left out.
 
 #include <fmt/core.h>
 #include <gnu/libc-version.h>
+#include <hwy/base.h>
 #include <sys/utsname.h>
 
 #include <CLI/CLI.hpp>
@@ -12,6 +14,7 @@
 #include <exception>
 #include <nlohmann/json.hpp>
 
+#include "bqsa/batch/instruction_set.hpp"
 #include "guarded_kernels.hpp"
 #include "harness/input_error.hpp"
 #include "harness/results/provenance.hpp"
@@ -21,7 +24,7 @@ namespace {
 
 std::vector<GuardedKernel> all_kernels() {
   std::vector<GuardedKernel> kernels = geometry_kernels();
-  for (const auto& more : {motion_kernels(), step_kernels()}) {
+  for (const auto& more : {batch_kernels(), motion_kernels(), step_kernels()}) {
     kernels.insert(kernels.end(), more.begin(), more.end());
   }
   return kernels;
@@ -42,9 +45,20 @@ void print_build() {
     if (has_code_in_kernels) toolchain[library] = version;
   }
   toolchain["libccd"] = BQSA_CCD_VERSION;
+  toolchain["Highway"] = fmt::format("{}.{}.{}", HWY_MAJOR, HWY_MINOR, HWY_PATCH);
+  toolchain["instruction_set"] = instruction_set().name;
   const nlohmann::ordered_json text = {
       {"commit", build.commit}, {"modified", build.dirty}, {"toolchain", toolchain}};
   fmt::print("{}\n", text.dump(2));
+}
+
+/// Not more than valgrind knows. A processor with less has counts of its own.
+void choose_instructions() {
+  for (const InstructionSet& set : instruction_sets()) {
+    if (set.name == "AVX3") continue;
+    use_instruction_set(set.name);
+    return;
+  }
 }
 
 /// @param inject  share of the repetitions that are done twice, spread evenly [%]
@@ -104,6 +118,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
+    bqsa::choose_instructions();
     return bqsa::run(argc, argv);
   } catch (const std::exception& error) {
     fmt::print(stderr, "instruction_guard: {}\n", error.what());
