@@ -2,6 +2,8 @@
 
 #include "bqsa/batch/arm_kernels.hpp"
 
+#include <cstddef>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "bqsa/batch/arm_kernels.cpp"
 #include <hwy/foreach_target.h>
@@ -15,7 +17,7 @@ HWY_BEFORE_NAMESPACE();
 namespace bqsa::batch::HWY_NAMESPACE {
 namespace {
 
-constexpr int kBlock = 16;
+constexpr std::ptrdiff_t kBlock = 16;
 
 using Floats = hn::CappedTag<float, kBlock>;
 using V = hn::Vec<Floats>;
@@ -136,8 +138,7 @@ HWY_INLINE V free_of_all(const ArmPass& pass, const EndPoints<Dim>& points, V fr
   const V one = hn::Set(d, 1.0F);
   constexpr int kRows = Dim == 2 ? 5 : 9;
   for (int j = 0; j < pass.obstacles; ++j) {
-    const float* coefficients =
-        pass.coefficients + static_cast<std::ptrdiff_t>(j / kBlock) * kBlock * kRows + j % kBlock;
+    const float* coefficients = pass.coefficients + j / kBlock * kBlock * kRows + j % kBlock;
     const auto map =
         unit_map<Dim, V>([&](int row) { return hn::Set(d, coefficients[row * kBlock]); });
     const auto mapped = [&](int point) {
@@ -161,13 +162,12 @@ HWY_INLINE V free_of_all(const ArmPass& pass, const EndPoints<Dim>& points, V fr
 template <int Dim>
 void free_masks(const ArmPass& pass, std::uint16_t* free) {
   const Floats d;
-  const auto lanes = static_cast<int>(hn::Lanes(d));
+  const auto lanes = static_cast<std::ptrdiff_t>(hn::Lanes(d));
   EndPoints<Dim> points;
   for (int block = 0; block < pass.blocks; ++block) {
-    const float* angles =
-        pass.angles + static_cast<std::ptrdiff_t>(block) * kBlock * pass.arm->joints;
+    const float* angles = pass.angles + block * kBlock * pass.arm->joints;
     unsigned mask = 0;
-    for (int first = 0; first < kBlock; first += lanes) {
+    for (std::ptrdiff_t first = 0; first < kBlock; first += lanes) {
       forward(*pass.arm, angles + first, points);
       const V all = free_of_all(pass, points, in_range(*pass.arm, angles + first));
       mask |= bits(d, signs(d, all)) << first;
@@ -176,8 +176,8 @@ void free_masks(const ArmPass& pass, std::uint16_t* free) {
   }
 }
 
-void FreeMasksPlane(const ArmPass& pass, std::uint16_t* free) { free_masks<2>(pass, free); }
-void FreeMasksSpace(const ArmPass& pass, std::uint16_t* free) { free_masks<3>(pass, free); }
+void free_masks_in_plane(const ArmPass& pass, std::uint16_t* free) { free_masks<2>(pass, free); }
+void free_masks_in_space(const ArmPass& pass, std::uint16_t* free) { free_masks<3>(pass, free); }
 
 }  // namespace
 }  // namespace bqsa::batch::HWY_NAMESPACE
@@ -186,14 +186,14 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace bqsa::batch {
 
-HWY_EXPORT(FreeMasksPlane);
-HWY_EXPORT(FreeMasksSpace);
+HWY_EXPORT(free_masks_in_plane);
+HWY_EXPORT(free_masks_in_space);
 
 void free_masks_plane(const ArmPass& pass, std::uint16_t* free) {
-  HWY_DYNAMIC_DISPATCH(FreeMasksPlane)(pass, free);
+  HWY_DYNAMIC_DISPATCH(free_masks_in_plane)(pass, free);
 }
 void free_masks_space(const ArmPass& pass, std::uint16_t* free) {
-  HWY_DYNAMIC_DISPATCH(FreeMasksSpace)(pass, free);
+  HWY_DYNAMIC_DISPATCH(free_masks_in_space)(pass, free);
 }
 
 }  // namespace bqsa::batch

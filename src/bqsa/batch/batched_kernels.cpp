@@ -146,36 +146,36 @@ bool all_free(const Pass<Real>& pass) {
   return all;
 }
 
-bool HitMasksPlaneDouble(const Pass<double>& pass, std::uint16_t* masks) {
+bool hit_masks_plane_double(const Pass<double>& pass, std::uint16_t* masks) {
   return hit_masks<2>(pass, masks);
 }
-bool HitMasksPlaneFloat(const Pass<float>& pass, std::uint16_t* masks) {
+bool hit_masks_plane_float(const Pass<float>& pass, std::uint16_t* masks) {
   return hit_masks<2>(pass, masks);
 }
-bool HitMasksSpaceDouble(const Pass<double>& pass, std::uint16_t* masks) {
+bool hit_masks_space_double(const Pass<double>& pass, std::uint16_t* masks) {
   return hit_masks<3>(pass, masks);
 }
-bool HitMasksSpaceFloat(const Pass<float>& pass, std::uint16_t* masks) {
+bool hit_masks_space_float(const Pass<float>& pass, std::uint16_t* masks) {
   return hit_masks<3>(pass, masks);
 }
 
-bool CategoryMasksPlaneDouble(const Pass<double>& pass, std::uint16_t* masks) {
+bool category_masks_plane_double(const Pass<double>& pass, std::uint16_t* masks) {
   return category_masks<2>(pass, masks);
 }
-bool CategoryMasksPlaneFloat(const Pass<float>& pass, std::uint16_t* masks) {
+bool category_masks_plane_float(const Pass<float>& pass, std::uint16_t* masks) {
   return category_masks<2>(pass, masks);
 }
-bool CategoryMasksSpaceDouble(const Pass<double>& pass, std::uint16_t* masks) {
+bool category_masks_space_double(const Pass<double>& pass, std::uint16_t* masks) {
   return category_masks<3>(pass, masks);
 }
-bool CategoryMasksSpaceFloat(const Pass<float>& pass, std::uint16_t* masks) {
+bool category_masks_space_float(const Pass<float>& pass, std::uint16_t* masks) {
   return category_masks<3>(pass, masks);
 }
 
-bool AllFreePlaneDouble(const Pass<double>& pass) { return all_free<2>(pass); }
-bool AllFreePlaneFloat(const Pass<float>& pass) { return all_free<2>(pass); }
-bool AllFreeSpaceDouble(const Pass<double>& pass) { return all_free<3>(pass); }
-bool AllFreeSpaceFloat(const Pass<float>& pass) { return all_free<3>(pass); }
+bool all_free_plane_double(const Pass<double>& pass) { return all_free<2>(pass); }
+bool all_free_plane_float(const Pass<float>& pass) { return all_free<2>(pass); }
+bool all_free_space_double(const Pass<double>& pass) { return all_free<3>(pass); }
+bool all_free_space_float(const Pass<float>& pass) { return all_free<3>(pass); }
 
 }  // namespace
 }  // namespace bqsa::batch::HWY_NAMESPACE
@@ -184,56 +184,56 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace bqsa::batch {
 
-HWY_EXPORT(HitMasksPlaneDouble);
-HWY_EXPORT(HitMasksPlaneFloat);
-HWY_EXPORT(HitMasksSpaceDouble);
-HWY_EXPORT(HitMasksSpaceFloat);
-HWY_EXPORT(CategoryMasksPlaneDouble);
-HWY_EXPORT(CategoryMasksPlaneFloat);
-HWY_EXPORT(CategoryMasksSpaceDouble);
-HWY_EXPORT(CategoryMasksSpaceFloat);
-HWY_EXPORT(AllFreePlaneDouble);
-HWY_EXPORT(AllFreePlaneFloat);
-HWY_EXPORT(AllFreeSpaceDouble);
-HWY_EXPORT(AllFreeSpaceFloat);
+HWY_EXPORT(hit_masks_plane_double);
+HWY_EXPORT(hit_masks_plane_float);
+HWY_EXPORT(hit_masks_space_double);
+HWY_EXPORT(hit_masks_space_float);
+HWY_EXPORT(category_masks_plane_double);
+HWY_EXPORT(category_masks_plane_float);
+HWY_EXPORT(category_masks_space_double);
+HWY_EXPORT(category_masks_space_float);
+HWY_EXPORT(all_free_plane_double);
+HWY_EXPORT(all_free_plane_float);
+HWY_EXPORT(all_free_space_double);
+HWY_EXPORT(all_free_space_float);
 
 bool hit_masks_plane(const Pass<double>& pass, std::uint16_t* masks) {
-  return HWY_DYNAMIC_DISPATCH(HitMasksPlaneDouble)(pass, masks);
+  return HWY_DYNAMIC_DISPATCH(hit_masks_plane_double)(pass, masks);
 }
 bool hit_masks_plane(const Pass<float>& pass, std::uint16_t* masks) {
-  return HWY_DYNAMIC_DISPATCH(HitMasksPlaneFloat)(pass, masks);
+  return HWY_DYNAMIC_DISPATCH(hit_masks_plane_float)(pass, masks);
 }
 bool hit_masks_space(const Pass<double>& pass, std::uint16_t* masks) {
-  return HWY_DYNAMIC_DISPATCH(HitMasksSpaceDouble)(pass, masks);
+  return HWY_DYNAMIC_DISPATCH(hit_masks_space_double)(pass, masks);
 }
 bool hit_masks_space(const Pass<float>& pass, std::uint16_t* masks) {
-  return HWY_DYNAMIC_DISPATCH(HitMasksSpaceFloat)(pass, masks);
+  return HWY_DYNAMIC_DISPATCH(hit_masks_space_float)(pass, masks);
 }
 
 bool category_masks_plane(const Pass<double>& pass, std::uint16_t* masks) {
-  return HWY_DYNAMIC_DISPATCH(CategoryMasksPlaneDouble)(pass, masks);
+  return HWY_DYNAMIC_DISPATCH(category_masks_plane_double)(pass, masks);
 }
 bool category_masks_plane(const Pass<float>& pass, std::uint16_t* masks) {
-  return HWY_DYNAMIC_DISPATCH(CategoryMasksPlaneFloat)(pass, masks);
+  return HWY_DYNAMIC_DISPATCH(category_masks_plane_float)(pass, masks);
 }
 bool category_masks_space(const Pass<double>& pass, std::uint16_t* masks) {
-  return HWY_DYNAMIC_DISPATCH(CategoryMasksSpaceDouble)(pass, masks);
+  return HWY_DYNAMIC_DISPATCH(category_masks_space_double)(pass, masks);
 }
 bool category_masks_space(const Pass<float>& pass, std::uint16_t* masks) {
-  return HWY_DYNAMIC_DISPATCH(CategoryMasksSpaceFloat)(pass, masks);
+  return HWY_DYNAMIC_DISPATCH(category_masks_space_float)(pass, masks);
 }
 
 bool all_free_plane(const Pass<double>& pass) {
-  return HWY_DYNAMIC_DISPATCH(AllFreePlaneDouble)(pass);
+  return HWY_DYNAMIC_DISPATCH(all_free_plane_double)(pass);
 }
 bool all_free_plane(const Pass<float>& pass) {
-  return HWY_DYNAMIC_DISPATCH(AllFreePlaneFloat)(pass);
+  return HWY_DYNAMIC_DISPATCH(all_free_plane_float)(pass);
 }
 bool all_free_space(const Pass<double>& pass) {
-  return HWY_DYNAMIC_DISPATCH(AllFreeSpaceDouble)(pass);
+  return HWY_DYNAMIC_DISPATCH(all_free_space_double)(pass);
 }
 bool all_free_space(const Pass<float>& pass) {
-  return HWY_DYNAMIC_DISPATCH(AllFreeSpaceFloat)(pass);
+  return HWY_DYNAMIC_DISPATCH(all_free_space_float)(pass);
 }
 
 }  // namespace bqsa::batch

@@ -80,7 +80,7 @@ void ConfigurationArray::set(int index, const JointVector& q) {
   assert(0 <= index && index < count_ && q.size() == joints_);
   float* angle = angles_.data() + static_cast<std::ptrdiff_t>(index / kBlock) * joints_ * kBlock +
                  index % kBlock;
-  for (int j = 0; j < joints_; ++j) angle[j * kBlock] = static_cast<float>(q(j));
+  for (std::ptrdiff_t j = 0; j < joints_; ++j) angle[j * kBlock] = static_cast<float>(q(j));
 }
 
 ConfigurationCheck::ConfigurationCheck(const SerialChain& chain, std::span<const Ellipsoid> shapes,
