@@ -1,8 +1,12 @@
 #include <Eigen/Geometry>
 #include <memory>
+#include <optional>
 
+#include "baselines/closest/batched_distance.hpp"
+#include "baselines/closest/batched_test_points.hpp"
 #include "baselines/closest/segment_ellipsoid_distance.hpp"
 #include "baselines/closest/test_point_search.hpp"
+#include "bqsa/batch/instruction_set.hpp"
 #include "bqsa/geometry/conic.hpp"
 #include "bqsa/geometry/nearest_plane.hpp"
 #include "bqsa/geometry/paper_form.hpp"
@@ -145,6 +149,73 @@ Repetition judges_distance_of_pairs() {
   });
 }
 
+/// Every tenth chain among the obstacles of the first 64, with the best instructions that Valgrind knows.
+Repetition batched_distances() {
+  struct Scene {
+    std::vector<Eigen::MatrixX3d> chains;  // end-points by rows
+    std::optional<baselines::EllipsoidBlocks> ellipsoids;
+    std::optional<baselines::DistanceTable> table;
+  };
+  const auto scene = std::make_shared<Scene>();
+  std::vector<Ellipsoid> shapes;
+  for (const auto& [obstacle, points] : random_chains<3>()) {
+    if (shapes.size() % 10 == 0) {
+      Eigen::MatrixX3d& chain = scene->chains.emplace_back(kLinksPerChain + 1, 3);
+      for (int k = 0; k <= kLinksPerChain; ++k) chain.row(k) = points[static_cast<std::size_t>(k)];
+    }
+    shapes.push_back(obstacle);
+  }
+  shapes.resize(64, shapes.front());
+  scene->ellipsoids.emplace(shapes);
+  scene->table.emplace(kLinksPerChain, *scene->ellipsoids);
+  use_instruction_set("AVX2");
+  return [scene] {
+    double sum = 0;
+    for (const Eigen::MatrixX3d& chain : scene->chains) {
+      const double* const x = chain.col(0).data();
+      const double* const y = chain.col(1).data();
+      const double* const z = chain.col(2).data();
+      segment_distances({x, y, z, kLinksPerChain}, {x + 1, y + 1, z + 1, kLinksPerChain},
+                        *scene->ellipsoids, *scene->table);
+      for (const double distance : scene->table->distance) sum += distance;
+    }
+    return sum;
+  };
+}
+
+/// Ten links of 25 points against 64 obstacles of 40, likewise.
+template <int Dim>
+Repetition batched_test_points(baselines::PointBlocks::Lanes lanes) {
+  constexpr int kLinks = 10, kLinkPoints = 25, kObstacles = 64, kObstaclePoints = 40;
+  struct Scene {
+    Eigen::MatrixX3d links{kLinks * kLinkPoints, 3};
+    std::optional<baselines::PointBlocks> obstacles;
+    std::vector<double> least;
+  };
+  const auto scene = std::make_shared<Scene>();
+  harness::RandomStream random({2, Dim});
+  for (double& x : scene->links.reshaped()) x = random.uniform(-1, 1);
+  scene->obstacles.emplace(lanes, Dim, kObstacles, kObstaclePoints);
+  for (int j = 0; j < kObstacles; ++j) {
+    Eigen::MatrixX3d points(kObstaclePoints, 3);
+    for (double& x : points.reshaped()) x = random.uniform(-1, 1);
+    scene->obstacles->set(j, points);
+  }
+  const auto others = [](const Eigen::MatrixX3d& links) -> baselines::PointGroups {
+    return {{links.col(0).data(), links.col(1).data(), links.col(2).data(),
+             static_cast<int>(links.rows())},
+            kLinkPoints};
+  };
+  scene->least.resize(least_needed(*scene->obstacles, others(scene->links)));
+  use_instruction_set("AVX2");
+  return [scene, others] {
+    least_squared_distances(*scene->obstacles, others(scene->links), scene->least);
+    double sum = 0;
+    for (const double least : scene->least) sum += least;
+    return sum;
+  };
+}
+
 Ellipsoid in_space(const Ellipse& ellipse) { return embedded(ellipse); }
 Ellipsoid in_space(const Ellipsoid& ellipsoid) { return ellipsoid; }
 
@@ -221,6 +292,11 @@ std::vector<GuardedKernel> geometry_kernels() {
       {"distance/exact", segment_distance_of_pairs},
       {"distance/exact_of_the_judge", judges_distance_of_pairs},
       {"distance/test_points", test_points},
+      {"distance/exact_batched_avx2", batched_distances},
+      {"distance/test_points_avx2/plane",
+       [] { return batched_test_points<2>(baselines::PointBlocks::Lanes::kPoints); }},
+      {"distance/test_points_avx2/space",
+       [] { return batched_test_points<3>(baselines::PointBlocks::Lanes::kGroups); }},
   };
 }
 
