@@ -119,8 +119,13 @@ bool BackwardSearch::predict(const StepInput& input) {
     q_dot += self_motion;
   }
   q_ += problem_->dt * q_dot;
-  forward();
-  return settings_.corrections == 0 ? q_.allFinite() : correct_tip(input, ik_start_);
+  if (settings_.corrections == 0) {
+    forward();
+    return q_.allFinite();
+  }
+  chain.forward_from(input.q, q_, pose_);
+  ++counters_.kinematics;
+  return correct_tip(input, ik_start_, x_dot_.norm() * problem_->dt);
 }
 
 MotionCertificate::Result BackwardSearch::finish(const StepInput& input, const JointVector&,
@@ -136,9 +141,10 @@ JointVector BackwardSearch::hybrid_step(const JointVector& q, const JointVector&
   return q + problem_->dt * ik.q_dot;
 }
 
-bool BackwardSearch::correct_tip(const StepInput& input, const TrackingIk& ik) {
+bool BackwardSearch::correct_tip(const StepInput& input, const TrackingIk& ik,
+                                 double error_before) {
   const double error = close_tip(problem_->chain, input.p_WT_desired, problem_->dt, settings_, ik,
-                                 q_, pose_, counters_);
+                                 error_before, q_, pose_, counters_);
   return error <= problem_->tolerance;
 }
 

@@ -67,8 +67,9 @@ class BackwardSearch : public ReactiveMethod {
   JointVector hybrid_step(const JointVector& q, const JointVector& weights, const JointVector& phi);
 
   /// Moves q_ until the tip is on its path. False if it stays off it.
-  /// @param ik  of the tip's Jacobian at a configuration close to q_
-  bool correct_tip(const StepInput& input, const TrackingIk& ik);
+  /// @param ik            of the tip's Jacobian at a configuration close to q_
+  /// @param error_before  of the tip there, if the last step was to correct it, else 0 [m]
+  bool correct_tip(const StepInput& input, const TrackingIk& ik, double error_before);
 
   /// pose_ of q_.
   void forward();

@@ -113,14 +113,13 @@ StepInput BqsaLookahead::input_after(const Plan& plan) const {
 
 /// Adds ticks to the plan up to `last`. False at a dead end.
 bool BqsaLookahead::imagine(Plan& plan, int last) {
-  StepOutput output;
   while (plan.last_tick() < last) {
-    search_->step(input_after(plan), output);
-    if (output.state == TickState::kInfeasible) {
-      dead_end_ = output;
+    search_->step(input_after(plan), plan.next());
+    if (plan.next().state == TickState::kInfeasible) {
+      copy(plan.next(), dead_end_);
       return false;
     }
-    plan.add(output);
+    plan.take_next();
   }
   return true;
 }

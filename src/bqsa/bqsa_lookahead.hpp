@@ -66,6 +66,8 @@ class BqsaLookahead final : public ReactiveMethod {
       return rows_[static_cast<std::size_t>(tick) % rows_.size()];
     }
     void add(const StepOutput& output) { copy(output, at(++last_)); }
+    StepOutput& next() { return at(last_ + 1); }  ///< to be written, and then added by `take_next`
+    void take_next() { ++last_; }
     void drop_first() { ++first_; }
     void cut_after(int tick) { last_ = tick; }
 

@@ -54,7 +54,7 @@ bool SpatialSearch::move(const StepInput& input, const JointVector& from,
                          const JointVector& change) {
   q_ = from + change;
   forward();
-  return correct_tip(input, ik_);
+  return correct_tip(input, ik_, 0);
 }
 
 void SpatialSearch::settle(const StepInput& input, const Link& link, const JointVector& colliding,

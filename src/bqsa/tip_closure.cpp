@@ -1,6 +1,7 @@
 #include "bqsa/tip_closure.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace bqsa {
 namespace {
@@ -8,11 +9,15 @@ namespace {
 /// Part of an error that a correction may leave for the next one to go on with the same Jacobian.
 constexpr double kContracts = 0.05;
 
+/// By how much better than the tolerance an error is expected to be for its pose to be taken in full.
+constexpr double kSurely = 0.5;
+
 /// Joint step of one correction beyond which it is cut back [rad].
 constexpr double kLargestStep = 0.3;
 
-/// @param known  with which corrections start; null if nothing is known
-double close_from(const TrackingIk* known, const SerialChain& chain, const Eigen::Vector3d& p_WT,
+/// @param known         with which corrections start; null if nothing is known
+/// @param error_before  of the tip, before the last step [m]
+double close_from(const TrackingIk* known, double error_before, const SerialChain& chain, const Eigen::Vector3d& p_WT,
                   double dt, const BqsaSettings& settings, JointVector& q, ChainPose& pose,
                   WorkCounters& counters) {
   const double residual_bound =
@@ -20,7 +25,15 @@ double close_from(const TrackingIk* known, const SerialChain& chain, const Eigen
   TrackingIk fresh;
   const TrackingIk* ik = known;
   JointVector q_dot;
+  bool full = known == nullptr;  // whether the pose is that of `forward`, not made of one nearby
   double error = (p_WT - pose.tip()).norm();
+  const auto evaluate = [&](const JointVector& q_before, double expected) {
+    full = expected < kSurely * settings.tip_tolerance;
+    full ? chain.forward(q, pose) : chain.forward_from(q_before, q, pose);
+    ++counters.kinematics;
+    error_before = error;
+    error = (p_WT - pose.tip()).norm();
+  };
   for (int k = 0; k < settings.corrections && error > settings.tip_tolerance; ++k) {
     if (ik == nullptr) {
       TaskJacobian J;
@@ -35,27 +48,26 @@ double close_from(const TrackingIk* known, const SerialChain& chain, const Eigen
     const double largest = dt * q_dot.cwiseAbs().maxCoeff();
     const JointVector q_before = q;
     q += std::min(1.0, kLargestStep / largest) * dt * q_dot;
-    chain.forward_from(q_before, q, pose);
-    ++counters.kinematics;
-    const double error_before = error;
-    error = (p_WT - pose.tip()).norm();
+    // A first-order step along d leaves half of what a correction with the Jacobian before d leaves.
+    evaluate(q_before, 2 * error * error / error_before);
     if (!(error < kContracts * error_before)) ik = nullptr;
   }
+  if (!full) evaluate(q, 0);
   return error;
 }
 
 }  // namespace
 
 double close_tip(const SerialChain& chain, const Eigen::Vector3d& p_WT, double dt,
-                 const BqsaSettings& settings, const TrackingIk& ik, JointVector& q,
-                 ChainPose& pose, WorkCounters& counters) {
-  return close_from(&ik, chain, p_WT, dt, settings, q, pose, counters);
+                 const BqsaSettings& settings, const TrackingIk& ik,
+                 double error_before, JointVector& q, ChainPose& pose, WorkCounters& counters) {
+  return close_from(&ik, error_before, chain, p_WT, dt, settings, q, pose, counters);
 }
 
 double close_tip(const SerialChain& chain, const Eigen::Vector3d& p_WT, double dt,
                  const BqsaSettings& settings, JointVector& q, ChainPose& pose,
                  WorkCounters& counters) {
-  return close_from(nullptr, chain, p_WT, dt, settings, q, pose, counters);
+  return close_from(nullptr, std::numeric_limits<double>::infinity(), chain, p_WT, dt, settings, q, pose, counters);
 }
 
 }  // namespace bqsa

@@ -15,13 +15,14 @@ namespace bqsa {
 ///
 /// @param dt    control period, the time in which one correction is made [s]
 /// @param ik    of the Jacobian at a configuration close to q, with which corrections start
+/// @param error_before  of the tip at that configuration [m]
 /// @param q     joint angles, changed in place [rad]
-/// @param pose  of q before and after the call
+/// @param pose  of q before and after the call; before it may be of `forward_from`
 /// @return the remaining tip error [m]
 /// Does not allocate.
 double close_tip(const SerialChain& chain, const Eigen::Vector3d& p_WT, double dt,
-                 const BqsaSettings& settings, const TrackingIk& ik, JointVector& q,
-                 ChainPose& pose, WorkCounters& counters);
+                 const BqsaSettings& settings, const TrackingIk& ik,
+                 double error_before, JointVector& q, ChainPose& pose, WorkCounters& counters);
 
 /// The same with nothing known.
 double close_tip(const SerialChain& chain, const Eigen::Vector3d& p_WT, double dt,
