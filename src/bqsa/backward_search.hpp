@@ -63,6 +63,9 @@ class BackwardSearch : public ReactiveMethod {
     return certificate_.certify(input.tick, input.q, pose_start_, q_, pose_);
   }
 
+  /// The neighbour lists of the certificate, for the variant's own fields to share.
+  const std::shared_ptr<NeighbourLists>& neighbours() const { return certificate_.neighbours(); }
+
   /// q + dt hybrid_ik(...) with the tip's Jacobian and velocity of this tick (Eqs. 17, 18).
   JointVector hybrid_step(const JointVector& q, const JointVector& weights, const JointVector& phi);
 

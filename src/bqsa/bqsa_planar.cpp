@@ -23,7 +23,7 @@ void BqsaPlanar::prepare(const Problem& problem) {
   }
   BackwardSearch::prepare(problem);
   obstacles_.assign(problem.obstacles, counters_, problem.link_radius + problem.margin,
-                    certificate_.neighbours());
+                    neighbours());
   release_.assign(problem, obstacles_, settings_, counters_);
   self_motion_.assign(problem.chain, counters_);
 }

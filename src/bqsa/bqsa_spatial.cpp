@@ -5,7 +5,7 @@ namespace bqsa {
 void BqsaSpatial::prepare(const Problem& problem) {
   SpatialSearch::prepare(problem);
   obstacles_.assign(problem.obstacles, counters_, problem.link_radius + problem.margin,
-                    certificate_.neighbours());
+                    neighbours());
   release_.assign(problem, obstacles_, settings_, counters_);
 }
 
