@@ -20,6 +20,10 @@ struct GuardedKernel {
 /// Segment tests, obstacle fields, distances. Of pairs of link and obstacle.
 std::vector<GuardedKernel> geometry_kernels();
 
+/// The batched test, of poses, configurations and motions. They put vector code to AVX2, on which the
+/// count depends; a processor without it cannot run them.
+std::vector<GuardedKernel> batch_kernels();
+
 /// Kinematics, inverse kinematics, certificate and the judge's check of motions, on the paper's scenes.
 std::vector<GuardedKernel> motion_kernels();
 

@@ -21,7 +21,7 @@ namespace {
 
 std::vector<GuardedKernel> all_kernels() {
   std::vector<GuardedKernel> kernels = geometry_kernels();
-  for (const auto& more : {motion_kernels(), step_kernels()}) {
+  for (const auto& more : {batch_kernels(), motion_kernels(), step_kernels()}) {
     kernels.insert(kernels.end(), more.begin(), more.end());
   }
   return kernels;
