@@ -20,7 +20,7 @@ struct GuardedKernel {
 /// Segment tests, obstacle fields, distances. Of pairs of link and obstacle.
 std::vector<GuardedKernel> geometry_kernels();
 
-/// Batches, with the vector instructions in use.
+/// The batched test, of poses, configurations and motions, with the vector instructions in use.
 std::vector<GuardedKernel> batch_kernels();
 
 /// Kinematics, inverse kinematics, certificate and the judge's check of motions, on the paper's scenes.

@@ -11,7 +11,8 @@ namespace bqsa {
 ///
 /// With q > 0 the ellipsoid of the semi-axes sqrt((1 + 1/q) a² + (1 + q) distance²) does, for any q
 /// (Kurzhanski and Valyi); taken is the q whose axes have the least sum. For a ball that is exact. For
-/// thin shapes it is generous: 10 mm around a sheet of 0.1 mm x 0.1 m x 10 m is thickened to 0.18 m.
+/// thin shapes it is generous: 10 mm around a sheet with the semi-axes 0.1 mm, 0.1 m and 10 m gives 85 mm,
+/// 0.13 m and 10.07 m.
 /// @throws std::invalid_argument if the distance is negative or not finite
 template <int Dim>
 EllipsoidN<Dim> ellipsoid_around(const EllipsoidN<Dim>& shape, double distance);

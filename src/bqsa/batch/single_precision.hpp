@@ -47,9 +47,9 @@
 /// are first lengthened to that: the sum of what the shortest and the longest axis grow by is then about
 /// least. None is left shorter than sqrt(8 eps) l, 200 eps R and 5 eta, which keeps sigma below 3/4.
 ///
-/// *Figures*, for links of 0.4 m in a workspace of 2 m, the centre 1 m away: a ball of 10 cm grows by
-/// 4 µm, one of 1 cm by 6 µm, a needle of 1 mm x 1 mm x 30 cm by 0.4 mm, a sheet of 0.1 mm x 0.1 m x 10 m
-/// by 10 mm.
+/// *Figures*, for links of 0.4 m in a workspace of 2 m, the centre 1 m away: balls of 10 cm and of 1 cm grow
+/// by 3 and 4 µm. Thin obstacles grow much more: a needle of 1 mm x 1 mm x 30 cm by 1.1 mm, 1.1 mm and
+/// 1.3 mm, a sheet of 0.1 mm x 0.1 m x 10 m by 6.5 mm, 0.05 mm and 5 mm (semi-axes).
 #pragma once
 
 #include <optional>
