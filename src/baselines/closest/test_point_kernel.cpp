@@ -14,7 +14,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<double, kPointBlock>;
 using Vec = hn::Vec<Tag>;
 constexpr double kFarthest = 1e300;  // [m²]
-constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag()));
+constexpr auto kLanes = static_cast<std::ptrdiff_t>(hn::MaxLanes(Tag()));
 
 template <int Dim>
 HWY_INLINE Vec squared_distance(Vec x, Vec y, Vec z, Vec p_x, Vec p_y, Vec p_z) {
@@ -57,12 +57,12 @@ template <int Dim>
 class Groups {
  public:
   /// Those of a block's lanes from `lane` on.
-  HWY_INLINE Groups(const TestPointPass& pass, int block, int lane)
+  HWY_INLINE Groups(const TestPointPass& pass, std::ptrdiff_t block, std::ptrdiff_t lane)
       : pass_(pass),
         block_(pass.blocks + block * pass.rows * Dim * kPointBlock + lane),
         first_lanes_(lane == 0),
         smallest_(hn::Set(Tag(), kFarthest)) {
-    const int groups = pass.points.count / pass.count;
+    const std::ptrdiff_t groups = pass.points.count / pass.count;
     out_ = pass.least + block * groups * (pass.across ? 1 : kPointBlock) + (pass.across ? 0 : lane);
   }
 
@@ -108,8 +108,8 @@ class Groups {
 
 template <int Dim>
 HWY_INLINE void all_blocks(const TestPointPass& pass) {
-  for (int block = 0; block < pass.block_count; ++block) {
-    for (int lane = 0; lane < kPointBlock; lane += kLanes)
+  for (std::ptrdiff_t block = 0; block < pass.block_count; ++block) {
+    for (std::ptrdiff_t lane = 0; lane < kPointBlock; lane += kLanes)
       Groups<Dim>(pass, block, lane).write_all();
   }
 }

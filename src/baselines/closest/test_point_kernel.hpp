@@ -2,12 +2,14 @@
 /// The loop of `least_squared_distances`, compiled once for every instruction set: plain numbers only.
 #pragma once
 
+#include <cstddef>
+
 #include "baselines/closest/point_arrays.hpp"
 
 namespace bqsa::baselines {
 
 /// Points that lie side by side: as many as the widest vector has doubles.
-inline constexpr int kPointBlock = 8;
+inline constexpr std::ptrdiff_t kPointBlock = 8;
 
 struct TestPointPass {
   const double* blocks;  ///< block by block, row by row, coordinate by coordinate

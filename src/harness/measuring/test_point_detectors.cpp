@@ -102,7 +102,10 @@ class VectorizedTestPointDetection final : public Detection {
 
   void add_blocks(Lanes lanes, const Points& points, int first, int groups, int count) {
     baselines::PointBlocks& blocks = blocks_.emplace_back(lanes, size_.dimension, groups, count);
-    for (int g = 0; g < groups; ++g) blocks.set(g, points.middleRows((first + g) * count, count));
+    for (int g = 0; g < groups; ++g) {
+      const Eigen::Index row = static_cast<Eigen::Index>(first + g) * count;
+      blocks.set(g, points.middleRows(row, count));
+    }
   }
 
   static baselines::PointArrays arrays(const Points& points, int first, int count) {
