@@ -58,7 +58,7 @@ std::size_t least_needed(const PointBlocks& blocks, const PointGroups& others) {
 }
 
 void least_squared_distances(const PointBlocks& blocks, const PointGroups& others,
-                             std::span<double> least) {
+                             Rounding rounding, std::span<double> least) {
   assert(others.points.count % others.count == 0);
   assert(least.size() == least_needed(blocks, others));
   run_test_point_pass({.blocks = blocks.data(),
@@ -68,6 +68,7 @@ void least_squared_distances(const PointBlocks& blocks, const PointGroups& other
                        .points = others.points,
                        .count = others.count,
                        .across = blocks.lanes() == PointBlocks::Lanes::kPoints,
+                       .fused = rounding == Rounding::kFused,
                        .least = least.data()});
 }
 

@@ -19,8 +19,10 @@ struct TestPointPass {
   PointArrays points;
   int count;    ///< of `points` that belong together
   bool across;  ///< whether the least of all lanes is wanted
-  double*
-      least;  ///< block by block, group of points by group of points; eight each unless `across`
+  bool fused;   ///< by multiply-adds, which round once
+
+  /// Block by block, group of points by group of points; eight each unless `across`.
+  double* least;
 };
 
 /// With the instruction set in use.
