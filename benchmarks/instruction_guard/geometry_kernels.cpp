@@ -209,7 +209,8 @@ Repetition batched_test_points(baselines::PointBlocks::Lanes lanes) {
   scene->least.resize(least_needed(*scene->obstacles, others(scene->links)));
   use_instruction_set("AVX2");
   return [scene, others] {
-    least_squared_distances(*scene->obstacles, others(scene->links), scene->least);
+    least_squared_distances(*scene->obstacles, others(scene->links), baselines::Rounding::kFused,
+                            scene->least);
     double sum = 0;
     for (const double least : scene->least) sum += least;
     return sum;

@@ -9,6 +9,9 @@ namespace bqsa::baselines {
 namespace {
 
 constexpr int kBlock = kEllipsoidBlock;
+constexpr int kRows = kEllipsoidRows;
+
+std::size_t size(int count) { return static_cast<std::size_t>(count); }
 
 struct Redo {
   const PointArrays& starts;
@@ -34,24 +37,21 @@ void redo(void* context, int segment, int first, unsigned lanes) {
 }  // namespace
 
 EllipsoidBlocks::EllipsoidBlocks(std::span<const Ellipsoid> shapes)
-    : shapes_(shapes.begin(), shapes.end()),
-      numbers_(static_cast<std::size_t>(blocks() * kEllipsoidRows * kBlock)) {
-  for (int j = 0; j < count(); ++j) set(j, shapes_[static_cast<std::size_t>(j)]);
+    : shapes_(shapes.begin(), shapes.end()), numbers_(size(blocks()) * kRows * kBlock) {
+  for (int j = 0; j < count(); ++j) set(j, shapes_[size(j)]);
 }
 
 void EllipsoidBlocks::set(int j, const Ellipsoid& shape) {
   assert(j >= 0 && j < count());
-  shapes_[static_cast<std::size_t>(j)] = shape;
+  shapes_[size(j)] = shape;
   const Eigen::Vector3d squares = shape.semi_axes().cwiseAbs2();
-  Eigen::Matrix<double, kEllipsoidRows, 1> rows;
+  Eigen::Matrix<double, kRows, 1> rows;
   rows << shape.center(), shape.rotation().reshaped(), squares, squares.cwiseInverse(),
       shape.semi_axes().maxCoeff();
   const int end = j + 1 == count() ? blocks() * kBlock : j + 1;
   for (int column = j; column < end; ++column) {
-    double* const block =
-        &numbers_[static_cast<std::size_t>(column / kBlock * kEllipsoidRows * kBlock)];
-    for (int row = 0; row < kEllipsoidRows; ++row)
-      block[row * kBlock + column % kBlock] = rows(row);
+    double* const block = &numbers_[size(column / kBlock) * kRows * kBlock];
+    for (int row = 0; row < kRows; ++row) block[row * kBlock + column % kBlock] = rows(row);
   }
 }
 
@@ -59,18 +59,17 @@ int EllipsoidBlocks::blocks() const { return (count() + kBlock - 1) / kBlock; }
 
 DistanceTable::DistanceTable(int segment_count, const EllipsoidBlocks& ellipsoids)
     : segments(segment_count),
-      distance(static_cast<std::size_t>(segment_count * ellipsoids.blocks() * kBlock)),
+      distance(size(segment_count) * size(ellipsoids.blocks()) * kBlock),
       t(distance.size()) {}
 
 std::size_t DistanceTable::index(int i, int j) const {
-  return static_cast<std::size_t>((j / kBlock * segments + i) * kBlock + j % kBlock);
+  return (size(j / kBlock) * size(segments) + size(i)) * kBlock + size(j % kBlock);
 }
 
 void segment_distances(const PointArrays& starts, const PointArrays& ends,
                        const EllipsoidBlocks& ellipsoids, DistanceTable& out) {
   assert(starts.count == ends.count && starts.count == out.segments);
-  assert(out.distance.size() ==
-         static_cast<std::size_t>(out.segments * ellipsoids.blocks() * kBlock));
+  assert(out.distance.size() == size(out.segments) * size(ellipsoids.blocks()) * kBlock);
   Redo context{starts, ends, ellipsoids, out};
   run_distance_pass({.starts = &starts,
                      .ends = &ends,

@@ -10,6 +10,8 @@ namespace {
 
 constexpr int kBlock = kPointBlock;
 
+std::size_t size(int count) { return static_cast<std::size_t>(count); }
+
 int in_blocks(int count) { return (count + kBlock - 1) / kBlock; }
 
 }  // namespace
@@ -20,7 +22,7 @@ PointBlocks::PointBlocks(Lanes lanes, int dimension, int groups, int count)
     : lanes_(lanes), dimension_(dimension), groups_(groups), count_(count) {
   assert(dimension == 2 || dimension == 3);
   assert(count > 0);
-  numbers_.resize(static_cast<std::size_t>(blocks() * rows() * dimension * kBlock));
+  numbers_.resize(size(blocks()) * size(rows()) * size(dimension) * kBlock);
 }
 
 int PointBlocks::blocks() const { return lanes_ == Lanes::kPoints ? groups_ : in_blocks(groups_); }
@@ -38,7 +40,7 @@ void PointBlocks::set(int g, const Eigen::Ref<const Eigen::MatrixX3d>& points) {
       const int row = block * rows() + (side_by_side ? k / kBlock : k);
       const int lane = side_by_side ? k % kBlock : group % kBlock;
       for (int axis = 0; axis < dimension_; ++axis) {
-        numbers_[static_cast<std::size_t>((row * dimension_ + axis) * kBlock + lane)] =
+        numbers_[(size(row) * size(dimension_) + size(axis)) * kBlock + size(lane)] =
             points(std::min(k, count_ - 1), axis);
       }
     }
@@ -46,17 +48,17 @@ void PointBlocks::set(int g, const Eigen::Ref<const Eigen::MatrixX3d>& points) {
 }
 
 std::size_t PointBlocks::index(int g, int i, int n) const {
-  if (lanes_ == Lanes::kPoints) return static_cast<std::size_t>(g * n + i);
-  return static_cast<std::size_t>((g / kBlock * n + i) * kBlock + g % kBlock);
+  if (lanes_ == Lanes::kPoints) return size(g) * size(n) + size(i);
+  return (size(g / kBlock) * size(n) + size(i)) * kBlock + size(g % kBlock);
 }
 
 std::size_t least_needed(const PointBlocks& blocks, const PointGroups& others) {
-  const int each = blocks.lanes() == PointBlocks::Lanes::kPoints ? 1 : kBlock;
-  return static_cast<std::size_t>(blocks.blocks() * others.groups() * each);
+  const std::size_t each = blocks.lanes() == PointBlocks::Lanes::kPoints ? 1 : kBlock;
+  return size(blocks.blocks()) * size(others.groups()) * each;
 }
 
 void least_squared_distances(const PointBlocks& blocks, const PointGroups& others,
-                             std::span<double> least) {
+                             Rounding rounding, std::span<double> least) {
   assert(others.points.count % others.count == 0);
   assert(least.size() == least_needed(blocks, others));
   run_test_point_pass({.blocks = blocks.data(),
@@ -66,6 +68,7 @@ void least_squared_distances(const PointBlocks& blocks, const PointGroups& other
                        .points = others.points,
                        .count = others.count,
                        .across = blocks.lanes() == PointBlocks::Lanes::kPoints,
+                       .fused = rounding == Rounding::kFused,
                        .least = least.data()});
 }
 

@@ -59,10 +59,16 @@ struct PointGroups {
 /// How many numbers `least_squared_distances` writes.
 std::size_t least_needed(const PointBlocks& blocks, const PointGroups& others);
 
+/// How squared distances are rounded.
+enum class Rounding {
+  kFused,     ///< by multiply-adds: the fastest
+  kAsScalar,  ///< after every operation, x before y before z: what scalar code finds, to the last bit
+};
+
 /// The least squared distance of any point of a group to any of another, for all pairs of groups [m²],
 /// at blocks.index(). Does not allocate.
 void least_squared_distances(const PointBlocks& blocks, const PointGroups& others,
-                             std::span<double> least);
+                             Rounding rounding, std::span<double> least);
 
 /// What a pair of groups takes with these lanes, about, in squared distances of a vector: to choose by.
 /// @param others_count  points of each group that they are compared with

@@ -12,9 +12,8 @@ namespace bqsa::baselines::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr int kMaxSteps = 16;
-constexpr double kEnough =
-    3e-6;  // step that may be left, as part of l + a_min²: errors are its square
-constexpr double kProven = 1e-10;     // gap between the bounds, as part of the lengths in play
+constexpr double kEnough = 3e-6;   // step that may be left, of l + a_min²: errors are its square
+constexpr double kProven = 1e-10;  // gap between the bounds, of the lengths in play
 constexpr double kSmallest = 1e-300;  // distance of what does not meet [m]
 
 using Tag = hn::CappedTag<double, kEllipsoidBlock>;
@@ -79,16 +78,16 @@ struct Search {
 };
 
 HWY_INLINE Vec3 load(const double* row) {
-  constexpr int kNext = kEllipsoidBlock;
+  constexpr std::ptrdiff_t kNext = kEllipsoidBlock;
   return {hn::LoadU(Tag(), row), hn::LoadU(Tag(), row + kNext), hn::LoadU(Tag(), row + 2 * kNext)};
 }
 
-/// Decides whether they meet, and starts the search at the multiplier of a point whose nearest point on
-/// the ellipsoid is on the way from the deepest point to the centre: exact for spheres.
+/// Decides whether they meet, and starts the search at the l of the deepest point, were its nearest point
+/// on the ellipsoid on the way to the centre: true of spheres.
 HWY_INLINE void start(const DistancePass& pass, int segment, const double* ellipsoids, Pairs& pairs,
                       Search& search) {
   const Tag tag;
-  constexpr int kThreeRows = 3 * kEllipsoidBlock;
+  constexpr std::ptrdiff_t kThreeRows = 3 * kEllipsoidBlock;
   const Vec3 center = load(ellipsoids);
   const Vec3 axis_x = load(ellipsoids + kThreeRows);
   const Vec3 axis_y = load(ellipsoids + 2 * kThreeRows);
@@ -163,9 +162,9 @@ HWY_INLINE void go_on(Search& search) {
   search.l = hn::Max(hn::Add(search.l, search.step), least);
 }
 
-/// The distance of x to the surface point A m / |A^(1/2) m| is too large by the square of the last step.
-/// It is proven by the plane across m, from which the segment and the ellipsoid are on either side. t
-/// moves along with the last step.
+/// The distance of x to the surface point A m / |A^(1/2) m| is too large, by the square of the last step.
+/// The plane across m, which has the segment and the ellipsoid on its two sides, proves it. t moves along
+/// with the last step.
 /// @return the lanes in which it is proven
 HWY_INLINE Lanes answer(const Pairs& pairs, const Search& search, double* distance, double* t) {
   const Tag tag;
@@ -191,16 +190,16 @@ HWY_INLINE Lanes answer(const Pairs& pairs, const Search& search, double* distan
   return hn::Or(pairs.meet, hn::Le(hn::Mul(hn::Sub(high, allowed), length), gap));
 }
 
-constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag()));
+constexpr auto kLanes = static_cast<std::ptrdiff_t>(hn::MaxLanes(Tag()));
 
 /// Which segment is asked against which vector of ellipsoids. Their order is that of the answers, but
 /// for vectors shorter than a block.
 struct Place {
   int segment;
-  int block;
-  int lane;
+  std::ptrdiff_t block;
+  std::ptrdiff_t lane;
 
-  HWY_INLINE int first() const { return block * kEllipsoidBlock + lane; }
+  HWY_INLINE int first() const { return static_cast<int>(block * kEllipsoidBlock + lane); }
 
   HWY_INLINE void go_on(int segments) {
     if ((lane += kLanes) < kEllipsoidBlock) return;
@@ -239,7 +238,7 @@ HWY_INLINE void solve(const DistancePass& pass, Place& next) {
   }
   for (int k = 0; k < Together; ++k) {
     const Place& place = places[k];
-    const int at_pair =
+    const std::ptrdiff_t at_pair =
         (place.block * pass.starts->count + place.segment) * kEllipsoidBlock + place.lane;
     const Lanes proven = answer(pairs[k], searches[k], pass.distance + at_pair, pass.t + at_pair);
     if (hn::AllTrue(tag, proven)) continue;
@@ -251,7 +250,7 @@ HWY_INLINE void solve(const DistancePass& pass, Place& next) {
 
 void distance_pass(const DistancePass& pass) {
   constexpr int kTogether = 4;
-  int left = pass.blocks * pass.starts->count * (kEllipsoidBlock / kLanes);
+  std::ptrdiff_t left = kEllipsoidBlock / kLanes * pass.blocks * pass.starts->count;
   Place next = {0, 0, 0};
   for (; left >= kTogether; left -= kTogether) solve<kTogether>(pass, next);
   for (; left > 0; --left) solve<1>(pass, next);

@@ -2,16 +2,18 @@
 /// The loop of `segment_distances`, compiled once for every instruction set: plain numbers only.
 #pragma once
 
+#include <cstddef>
+
 #include "baselines/closest/point_arrays.hpp"
 
 namespace bqsa::baselines {
 
 /// Ellipsoids that lie side by side: as many as the widest vector has doubles.
-inline constexpr int kEllipsoidBlock = 8;
+inline constexpr std::ptrdiff_t kEllipsoidBlock = 8;
 
 /// Numbers an ellipsoid, a row of the block each: centre, rotation column by column, squared semi-axes,
 /// their reciprocals, largest semi-axis.
-inline constexpr int kEllipsoidRows = 19;
+inline constexpr std::ptrdiff_t kEllipsoidRows = 19;
 
 /// All segments against all blocks of ellipsoids.
 struct DistancePass {

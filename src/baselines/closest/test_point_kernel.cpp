@@ -14,23 +14,28 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<double, kPointBlock>;
 using Vec = hn::Vec<Tag>;
 constexpr double kFarthest = 1e300;  // [m²]
-constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag()));
+constexpr auto kLanes = static_cast<std::ptrdiff_t>(hn::MaxLanes(Tag()));
 
-template <int Dim>
+template <bool Fused>
+HWY_INLINE Vec plus_square(Vec sum, Vec x) {
+  return Fused ? hn::MulAdd(x, x, sum) : hn::Add(sum, hn::Mul(x, x));
+}
+
+template <int Dim, bool Fused>
 HWY_INLINE Vec squared_distance(Vec x, Vec y, Vec z, Vec p_x, Vec p_y, Vec p_z) {
   const Vec d_x = hn::Sub(x, p_x);
   const Vec d_y = hn::Sub(y, p_y);
-  Vec squared = hn::MulAdd(d_y, d_y, hn::Mul(d_x, d_x));
+  Vec squared = plus_square<Fused>(hn::Mul(d_x, d_x), d_y);
   if constexpr (Dim == 3) {
     const Vec d_z = hn::Sub(z, p_z);
-    squared = hn::MulAdd(d_z, d_z, squared);
+    squared = plus_square<Fused>(squared, d_z);
   }
   return squared;
 }
 
 /// For each of `Together` points from number k on, the least of its squared distances to the points in
 /// every lane of a block: what is loaded serves all of them.
-template <int Dim, int Together>
+template <int Dim, bool Fused, int Together>
 HWY_INLINE void least_of_block(const TestPointPass& pass, const double* block, int k, Vec* least) {
   const Tag tag;
   Vec p_x[Together], p_y[Together], p_z[Together], smallest[Together];
@@ -46,23 +51,24 @@ HWY_INLINE void least_of_block(const TestPointPass& pass, const double* block, i
     const Vec y = hn::LoadU(tag, row + kPointBlock);
     const Vec z = Dim == 3 ? hn::LoadU(tag, row + 2 * kPointBlock) : hn::Zero(tag);
     for (int i = 0; i < Together; ++i) {
-      smallest[i] = hn::Min(smallest[i], squared_distance<Dim>(x, y, z, p_x[i], p_y[i], p_z[i]));
+      smallest[i] =
+          hn::Min(smallest[i], squared_distance<Dim, Fused>(x, y, z, p_x[i], p_y[i], p_z[i]));
     }
   }
   for (int i = 0; i < Together; ++i) least[i] = smallest[i];
 }
 
 /// Points that are next to each other are looked at together, whatever group they belong to.
-template <int Dim>
+template <int Dim, bool Fused>
 class Groups {
  public:
   /// Those of a block's lanes from `lane` on.
-  HWY_INLINE Groups(const TestPointPass& pass, int block, int lane)
+  HWY_INLINE Groups(const TestPointPass& pass, std::ptrdiff_t block, std::ptrdiff_t lane)
       : pass_(pass),
         block_(pass.blocks + block * pass.rows * Dim * kPointBlock + lane),
         first_lanes_(lane == 0),
         smallest_(hn::Set(Tag(), kFarthest)) {
-    const int groups = pass.points.count / pass.count;
+    const std::ptrdiff_t groups = pass.points.count / pass.count;
     out_ = pass.least + block * groups * (pass.across ? 1 : kPointBlock) + (pass.across ? 0 : lane);
   }
 
@@ -77,7 +83,7 @@ class Groups {
   template <int Together>
   HWY_INLINE void look(int k) {
     Vec least[Together];
-    least_of_block<Dim, Together>(pass_, block_, k, least);
+    least_of_block<Dim, Fused, Together>(pass_, block_, k, least);
     for (const Vec each : least) {
       smallest_ = hn::Min(smallest_, each);
       if (++looked_at_ == pass_.count) write();
@@ -106,19 +112,19 @@ class Groups {
   int looked_at_ = 0;  // points of the group at hand
 };
 
-template <int Dim>
+template <int Dim, bool Fused>
 HWY_INLINE void all_blocks(const TestPointPass& pass) {
-  for (int block = 0; block < pass.block_count; ++block) {
-    for (int lane = 0; lane < kPointBlock; lane += kLanes)
-      Groups<Dim>(pass, block, lane).write_all();
+  for (std::ptrdiff_t block = 0; block < pass.block_count; ++block) {
+    for (std::ptrdiff_t lane = 0; lane < kPointBlock; lane += kLanes)
+      Groups<Dim, Fused>(pass, block, lane).write_all();
   }
 }
 
 void test_point_pass(const TestPointPass& pass) {
   if (pass.dimension == 2) {
-    all_blocks<2>(pass);
+    pass.fused ? all_blocks<2, true>(pass) : all_blocks<2, false>(pass);
   } else {
-    all_blocks<3>(pass);
+    pass.fused ? all_blocks<3, true>(pass) : all_blocks<3, false>(pass);
   }
 }
 

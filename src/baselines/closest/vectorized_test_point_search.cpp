@@ -63,7 +63,7 @@ void VectorizedTestPointSearch::search(const ChainPose& pose, double reach,
   const int points = put_link_points(pose);
   const PointGroups each = {
       {links_.col(0).data(), links_.col(1).data(), links_.col(2).data(), points}, 1};
-  least_squared_distances(*blocks_, each,
+  least_squared_distances(*blocks_, each, Rounding::kAsScalar,
                           std::span(least_squared_).first(least_needed(*blocks_, each)));
   counters_->point_pairs += static_cast<std::uint64_t>(points * unit_.rows()) * surface_.size();
   for (std::size_t j = 0; j < surface_.size(); ++j) {

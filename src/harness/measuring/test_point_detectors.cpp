@@ -85,7 +85,7 @@ class VectorizedTestPointDetection final : public Detection {
     assert(hit.size() == static_cast<std::size_t>(size_.pairs()));
     const baselines::PointBlocks& blocks =
         blocks_[links_side_by_side_ ? static_cast<std::size_t>(pose) : 0];
-    least_squared_distances(blocks, others(pose), least_);
+    least_squared_distances(blocks, others(pose), baselines::Rounding::kFused, least_);
     std::uint8_t* answer = hit.data();
     for (int j = 0; j < size_.obstacles; ++j) {
       for (int i = 0; i < size_.links; ++i) {
@@ -102,7 +102,10 @@ class VectorizedTestPointDetection final : public Detection {
 
   void add_blocks(Lanes lanes, const Points& points, int first, int groups, int count) {
     baselines::PointBlocks& blocks = blocks_.emplace_back(lanes, size_.dimension, groups, count);
-    for (int g = 0; g < groups; ++g) blocks.set(g, points.middleRows((first + g) * count, count));
+    for (int g = 0; g < groups; ++g) {
+      const Eigen::Index row = static_cast<Eigen::Index>(first + g) * count;
+      blocks.set(g, points.middleRows(row, count));
+    }
   }
 
   static baselines::PointArrays arrays(const Points& points, int first, int count) {

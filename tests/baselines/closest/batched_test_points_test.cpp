@@ -31,6 +31,25 @@ Eigen::MatrixX3d random_points(Generator& generator, int count, int dimension) {
   return points;
 }
 
+/// Rounded after every operation: no compiler may fuse what is kept in memory.
+double least_by_scalar_code(const Eigen::MatrixX3d& from, const Eigen::MatrixX3d& to,
+                            int dimension) {
+  double least = std::numeric_limits<double>::infinity();
+  for (Eigen::Index a = 0; a < from.rows(); ++a) {
+    for (Eigen::Index b = 0; b < to.rows(); ++b) {
+      volatile double sum = 0;
+      for (int axis = 0; axis < dimension; ++axis) {
+        const volatile double apart = from(a, axis) - to(b, axis);
+        const volatile double square = apart * apart;
+        sum = sum + square;
+      }
+      const double squared = sum;
+      least = std::min(least, squared);
+    }
+  }
+  return least;
+}
+
 double least_by_definition(const Eigen::MatrixX3d& from, const Eigen::MatrixX3d& to,
                            int dimension) {
   long double least = std::numeric_limits<long double>::infinity();
@@ -70,20 +89,24 @@ TEST_P(BatchedTestPoints, FindTheLeastOfAllPairs) {
                                    static_cast<int>(points.rows())},
                                   size.others_count};
       with_all_instruction_sets([&] {
-        std::vector<double> least(least_needed(blocks, others), -1);
+        std::vector<double> least(least_needed(blocks, others), -1), as_scalar = least;
         const AllocationGuard guard;
-        least_squared_distances(blocks, others, least);
+        least_squared_distances(blocks, others, Rounding::kFused, least);
+        least_squared_distances(blocks, others, Rounding::kAsScalar, as_scalar);
         if (test_support::kCountsAllocations) {
           EXPECT_EQ(guard.allocations(), 0u);
         }
         for (int g = 0; g < size.groups; ++g) {
           for (int i = 0; i < size.others_groups; ++i) {
-            const double expected = least_by_definition(
-                groups[static_cast<std::size_t>(g)],
-                points.middleRows(i * size.others_count, size.others_count), dimension);
+            const Eigen::MatrixX3d& group = groups[static_cast<std::size_t>(g)];
+            const Eigen::MatrixX3d other =
+                points.middleRows(i * size.others_count, size.others_count);
+            const double expected = least_by_definition(group, other, dimension);
             const double found = least[blocks.index(g, i, size.others_groups)];
             EXPECT_NEAR(found, expected, 6e-16 * expected)
                 << dimension << "-D, group " << g << " of " << size.groups << ", " << i;
+            EXPECT_EQ(as_scalar[blocks.index(g, i, size.others_groups)],
+                      least_by_scalar_code(group, other, dimension));
           }
         }
       });
@@ -101,7 +124,7 @@ TEST_P(BatchedTestPoints, FollowAGroupThatMoves) {
     const PointGroups others = {{there.col(0).data(), there.col(1).data(), there.col(2).data(), 5},
                                 5};
     std::vector<double> least(least_needed(blocks, others));
-    least_squared_distances(blocks, others, least);
+    least_squared_distances(blocks, others, Rounding::kFused, least);
     for (int g = 0; g < 11; ++g) {
       EXPECT_EQ(least[blocks.index(g, 0, 1)] == 0, g == moved) << g << ' ' << moved;
     }
