@@ -104,8 +104,8 @@ TEST_F(SineCosine, BeyondTheirRangeAreThoseOfTheStandardLibrary) {
       EXPECT_EQ(sine[1], std::sin(large)) << set.name;
       EXPECT_EQ(cosine[1], std::cos(large)) << set.name;
     }
-    for (const double none : {std::numeric_limits<double>::infinity(),
-                              std::numeric_limits<double>::quiet_NaN()}) {
+    for (const double none :
+         {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
       Angles q{none}, sine, cosine;
       sine_cosine(q.data(), {}, 1, sine, cosine);
       EXPECT_TRUE(std::isnan(sine[0]) && std::isnan(cosine[0])) << set.name;
