@@ -87,8 +87,16 @@ TEST_F(SineCosine, HoldForEveryNumberOfJointsWhateverStandsBeyondThem) {
         offset[static_cast<std::size_t>(i)] = uniform(generator, -2, 2);
       }
       sine_cosine(q.data(), offset, count, sine, cosine);
+      Angles sum{}, same_sine, same_cosine;  // with nothing beyond
+      for (int i = 0; i < count; ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        sum[at] = q[at] + offset[at];
+      }
+      sine_cosine(sum.data(), {}, kMaxAngles, same_sine, same_cosine);
       for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-        ASSERT_LE(error_of(sine[i], cosine[i], q[i] + offset[i]), kBound) << set.name << count;
+        ASSERT_LE(error_of(sine[i], cosine[i], sum[i]), kBound) << set.name << count;
+        ASSERT_EQ(sine[i], same_sine[i]) << set.name << count;
+        ASSERT_EQ(cosine[i], same_cosine[i]) << set.name << count;
       }
     }
   }
