@@ -94,13 +94,13 @@ class BackwardSearch : public ReactiveMethod {
   bool predict(const StepInput& input);
 
   MotionCertificate certificate_;
-  ChainPose pose_start_;  ///< at the start of the tick
+  ChainPose pose_start_;   ///< at the start of the tick
   bool answered_ = false;  ///< whether q_ is the last answer
-  TaskJacobian J_tip_;  ///< at the start of the tick
-  TrackingIk ik_start_;  ///< of J_tip_
-  TaskVector x_dot_;    ///< [m/s]
-  JointVector lean_;    ///< [rad/s]
-  bool leans_ = false;  ///< whether it is not zero
+  TaskJacobian J_tip_;     ///< at the start of the tick
+  TrackingIk ik_start_;    ///< of J_tip_
+  TaskVector x_dot_;       ///< [m/s]
+  JointVector lean_;       ///< [rad/s]
+  bool leans_ = false;     ///< whether it is not zero
   int increments_left_ = 0;
 };
 

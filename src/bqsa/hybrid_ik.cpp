@@ -152,7 +152,8 @@ void TrackingIk::project(const JointVector& phi, JointVector& q_dot) const {
   TaskVector against(rows_);
   for (int i = 0; i < rows_; ++i) {
     double sum = 0;
-    for (int j = 0; j < joints_; ++j) sum += J_[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] * phi(j);
+    for (int j = 0; j < joints_; ++j)
+      sum += J_[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] * phi(j);
     against(i) = -sum;
   }
   rows_ == 2 ? add_pseudo_inverse<2>(against, q_dot) : add_pseudo_inverse<3>(against, q_dot);

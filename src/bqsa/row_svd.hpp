@@ -40,7 +40,7 @@ class RowSvd {
 
   int rows_ = 0;
   int columns_ = 0;
-  std::array<Row, kMaxTaskRows> sv_;                               ///< rows s_i v_iᵀ
+  std::array<Row, kMaxTaskRows> sv_;                              ///< rows s_i v_iᵀ
   std::array<std::array<double, kMaxTaskRows>, kMaxTaskRows> u_;  ///< rows u_iᵀ
   std::array<double, kMaxTaskRows> s_;
 };

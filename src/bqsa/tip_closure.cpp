@@ -17,11 +17,10 @@ constexpr double kLargestStep = 0.3;
 
 /// @param known         with which corrections start; null if nothing is known
 /// @param error_before  of the tip, before the last step [m]
-double close_from(const TrackingIk* known, double error_before, const SerialChain& chain, const Eigen::Vector3d& p_WT,
-                  double dt, const BqsaSettings& settings, JointVector& q, ChainPose& pose,
-                  WorkCounters& counters) {
-  const double residual_bound =
-      std::min(settings.ik.residual_bound, settings.tip_tolerance / dt);
+double close_from(const TrackingIk* known, double error_before, const SerialChain& chain,
+                  const Eigen::Vector3d& p_WT, double dt, const BqsaSettings& settings,
+                  JointVector& q, ChainPose& pose, WorkCounters& counters) {
+  const double residual_bound = std::min(settings.ik.residual_bound, settings.tip_tolerance / dt);
   TrackingIk fresh;
   const TrackingIk* ik = known;
   JointVector q_dot;
@@ -59,15 +58,16 @@ double close_from(const TrackingIk* known, double error_before, const SerialChai
 }  // namespace
 
 double close_tip(const SerialChain& chain, const Eigen::Vector3d& p_WT, double dt,
-                 const BqsaSettings& settings, const TrackingIk& ik,
-                 double error_before, JointVector& q, ChainPose& pose, WorkCounters& counters) {
+                 const BqsaSettings& settings, const TrackingIk& ik, double error_before,
+                 JointVector& q, ChainPose& pose, WorkCounters& counters) {
   return close_from(&ik, error_before, chain, p_WT, dt, settings, q, pose, counters);
 }
 
 double close_tip(const SerialChain& chain, const Eigen::Vector3d& p_WT, double dt,
                  const BqsaSettings& settings, JointVector& q, ChainPose& pose,
                  WorkCounters& counters) {
-  return close_from(nullptr, std::numeric_limits<double>::infinity(), chain, p_WT, dt, settings, q, pose, counters);
+  return close_from(nullptr, std::numeric_limits<double>::infinity(), chain, p_WT, dt, settings, q,
+                    pose, counters);
 }
 
 }  // namespace bqsa

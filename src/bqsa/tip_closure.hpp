@@ -21,8 +21,8 @@ namespace bqsa {
 /// @return the remaining tip error [m]
 /// Does not allocate.
 double close_tip(const SerialChain& chain, const Eigen::Vector3d& p_WT, double dt,
-                 const BqsaSettings& settings, const TrackingIk& ik,
-                 double error_before, JointVector& q, ChainPose& pose, WorkCounters& counters);
+                 const BqsaSettings& settings, const TrackingIk& ik, double error_before,
+                 JointVector& q, ChainPose& pose, WorkCounters& counters);
 
 /// The same with nothing known.
 double close_tip(const SerialChain& chain, const Eigen::Vector3d& p_WT, double dt,

@@ -295,6 +295,76 @@ TEST_P(HybridIk, BranchesMeetContinuously) {
   }
 }
 
+TEST_P(HybridIk, TrackingIsTheFormulaWithoutWeights) {
+  // Across the threshold of damping, where the inverse gives way to the decomposition.
+  const HybridIkSettings settings;
+  int regular = 0, damped = 0, deficient = 0;
+  for (int i = 0; i < 3 * kCases; ++i) {
+    Case c = random_case(i % 3 == 0 ? 0.05 : 1e-3, 1);
+    c.weights.setOnes();
+    if (i % 10 == 0) c.J.row(0) = c.J.row(1);
+    const HybridIkResult expected = solve(c);
+    TrackingIk ik;
+    ik.assign(c.J, settings);
+    JointVector q_dot, self_motion;
+    ik.solve(c.x_dot, q_dot);
+    ik.project(c.phi, self_motion);
+    const double length = 1 + expected.q_dot.norm();
+    ASSERT_LT((q_dot + self_motion - expected.q_dot).norm(), 1e-11 * length) << "case " << i;
+    ASSERT_LT((c.J * self_motion).norm(), 1e-11 * c.phi.norm()) << "case " << i;
+    ++(expected.rank < c.J.rows() ? deficient : expected.lambda > 0 ? damped : regular);
+  }
+  EXPECT_GT(regular, kCases / 2);
+  EXPECT_GT(damped, kCases / 2);
+  EXPECT_GT(deficient, kCases / 5);
+}
+
+TEST_P(HybridIk, TrackingTakesABoundOfItsOwn) {
+  for (int i = 0; i < kCases; ++i) {
+    Case c = random_case(1e-3, 1);
+    c.weights.setOnes();
+    c.phi.setZero();
+    HybridIkSettings tight;
+    tight.residual_bound = 1e-7;
+    TrackingIk ik;
+    ik.assign(c.J, {});
+    JointVector q_dot;
+    ik.solve(c.x_dot, tight.residual_bound, q_dot);
+    const JointVector expected = solve(c, tight).q_dot;
+    ASSERT_LT((q_dot - expected).norm(), 1e-11 * (1 + expected.norm())) << "case " << i;
+  }
+}
+
+/// U, S and V of A, however badly its columns are scaled, against Eigen's two-sided Jacobi.
+TEST_P(HybridIk, RowSvdHasTheDigitsOfASvd) {
+  const auto [m, n] = GetParam();
+  for (int i = 0; i < kCases; ++i) {
+    MatrixXd A = random_case(i % 2 == 0 ? 1e-12 : 1e-3, 1).J;
+    if (i % 3 == 0) {
+      for (int j = 0; j < n; ++j) A.col(j) *= log_uniform(generator_, 1e-6, 1);
+    }
+    if (i % 7 == 0) A.row(0) = -2 * A.row(m - 1);
+    RowSvd svd;
+    svd.decompose(A);
+    const VectorXd s = A.jacobiSvd().singularValues();
+    MatrixXd product = MatrixXd::Zero(m, n), U(m, m);
+    for (int k = 0; k < m; ++k) {
+      ASSERT_NEAR(svd.s(k), s(k), 1e-14 * s(0)) << "case " << i;
+      for (int row = 0; row < m; ++row) U(row, k) = svd.along_u(k, VectorXd::Unit(m, row));
+      if (!(svd.s(k) > 1e-14 * svd.s(0))) continue;
+      JointVector v = JointVector::Zero(n);
+      svd.add_v(k, 1, v);
+      ASSERT_NEAR(svd.along_v(k, v), 1, 1e-13) << "case " << i;
+      for (int other = 0; other < k; ++other) {
+        ASSERT_LT(std::abs(svd.along_v(other, v)), 1e-13) << "case " << i;
+      }
+      product += svd.s(k) * U.col(k) * v.transpose();
+    }
+    ASSERT_LT((product - A).norm(), 1e-14 * s(0)) << "case " << i;
+    ASSERT_LT((U.transpose() * U - MatrixXd::Identity(m, m)).norm(), 1e-14) << "case " << i;
+  }
+}
+
 TEST_P(HybridIk, DoesNotAllocate) {
   const Case c = random_case(1e-3, 1e4);
   HybridIkResult result;

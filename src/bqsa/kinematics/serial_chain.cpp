@@ -141,23 +141,33 @@ void SerialChain::place(ChainPose& pose) const {
 void SerialChain::place_in_plane(ChainPose& pose) const {
   double x = description_.R_WB(0, 0);  // of the link's direction
   double y = description_.R_WB(1, 0);
-  Eigen::Vector3d p = description_.p_WB;
-  pose.p_WO.col(0) = p;
-  for (int j = 0; j < joints_; ++j) {
-    const auto i = static_cast<std::size_t>(j);
-    const double x1 = pose.cosine[i] * x - pose.sine[i] * y;
-    y = pose.cosine[i] * y + pose.sine[i] * x;
+  double px = description_.p_WB.x();
+  double py = description_.p_WB.y();
+  double* p = pose.p_WO.data();
+  double* pivot = pose.pivot_W.data();
+  double* axis = pose.axis_W.data();
+  for (std::size_t j = 0; j < static_cast<std::size_t>(joints_); ++j) {
+    const double c = pose.cosine[j];
+    const double s = pose.sine[j];
+    const auto store = [=](double* at, double first, double second, double third) {
+      at[3 * j] = first;
+      at[3 * j + 1] = second;
+      at[3 * j + 2] = third;
+    };
+    store(axis, 0, 0, 1);
+    store(pivot, px, py, 0);
+    store(p, px, py, 0);
+    const double x1 = c * x - s * y;
+    y = c * y + s * x;
     x = x1;
-    pose.axis_W.col(j) = Eigen::Vector3d::UnitZ();
-    pose.pivot_W.col(j) = p;
-    p.x() += a_[i] * x;
-    p.y() += a_[i] * y;
-    pose.p_WO.col(j + 1) = p;
+    px += a_[j] * x;
+    py += a_[j] * y;
   }
+  pose.p_WO.col(joints_) << px, py, 0;
   if (points_ > joints_ + 1) {
     const Eigen::Vector3d& tool = description_.p_LT;
-    pose.p_WO.col(joints_ + 1) << p.x() + x * tool.x() - y * tool.y(),
-        p.y() + y * tool.x() + x * tool.y(), 0;
+    pose.p_WO.col(joints_ + 1) << px + x * tool.x() - y * tool.y(),
+        py + y * tool.x() + x * tool.y(), 0;
   }
 }
 

@@ -63,11 +63,11 @@ bool sine_cosine(const double* q, const double* offset, int count, double* sine,
                                    -2.50507602534068634195e-08, 1.58969099521155010221e-10);
     const V half = constant(0.5) * z;
     const V near_one = constant(1) - half;
-    const V c = near_one + (((constant(1) - near_one) - half) +
-                            z2 * polynomial(z, z2, 4.16666666666666019037e-02,
-                                            -1.38888888888741095749e-03, 2.48015872894767294178e-05,
-                                            -2.75573143513906633035e-07, 2.08757232129817482790e-09,
-                                            -1.13596475577881948265e-11));
+    const V c =
+        near_one + (((constant(1) - near_one) - half) +
+                    z2 * polynomial(z, z2, 4.16666666666666019037e-02, -1.38888888888741095749e-03,
+                                    2.48015872894767294178e-05, -2.75573143513906633035e-07,
+                                    2.08757232129817482790e-09, -1.13596475577881948265e-11));
 
     // In odd quadrants the two change places; then bit 1 of the quadrant is the sign.
     const auto quadrant = hn::BitCast(bits, rounded);
@@ -92,8 +92,8 @@ bool turn_slightly(const double* q_from, const double* q_to, int count, double l
     const V d = load(q_to, i, count) - load(q_from, i, count);
     const V z = d * d;
     const V z2 = z * z;
-    const V sin_d = d - d * z * (constant(1.0 / 6) - z * constant(1.0 / 120) +
-                                 z2 * constant(1.0 / 5040));
+    const V sin_d =
+        d - d * z * (constant(1.0 / 6) - z * constant(1.0 / 120) + z2 * constant(1.0 / 5040));
     const V less = z * (constant(0.5) - z * constant(1.0 / 24) +
                         z2 * (constant(1.0 / 720) - z * constant(1.0 / 40320)));
     const V s = hn::LoadU(kTag, sine + i);
@@ -117,7 +117,8 @@ HWY_EXPORT(turn_slightly);
 }  // namespace
 
 void sine_cosine(const double* q, const Angles& offset, int count, Angles& sine, Angles& cosine) {
-  if (HWY_DYNAMIC_DISPATCH(sine_cosine)(q, offset.data(), count, sine.data(), cosine.data())) return;
+  if (HWY_DYNAMIC_DISPATCH(sine_cosine)(q, offset.data(), count, sine.data(), cosine.data()))
+    return;
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
     sine[i] = std::sin(q[i] + offset[i]);
     cosine[i] = std::cos(q[i] + offset[i]);

@@ -130,6 +130,22 @@ INSTANTIATE_TEST_SUITE_P(Kinds, RandomChains,
                          testing::Values(Kind::kStandard, Kind::kModified, Kind::kPlanar),
                          [](const auto& parameter) { return name_of(parameter.param); });
 
+TEST_P(RandomChains, FromAPoseNearbyAllIsAsFromNothing) {
+  for_all([](int i, const SerialChain& chain, const JointVector& q, Generator& generator) {
+    for (const double range : {1e-9, 0.06, 1.0}) {  // the last one is not nearby
+      const JointVector q_near = q + JointVector::NullaryExpr(q.size(), [&](Eigen::Index) {
+                                   return uniform(generator, -range, range);
+                                 });
+      ChainPose pose = pose_of(chain, q_near);
+      const ChainPose expected = pose_of(chain, q);
+      chain.forward_from(q_near, q, pose);
+      ASSERT_LT((pose.p_WO - expected.p_WO).norm(), 1e-14) << "case " << i;
+      ASSERT_LT((pose.axis_W - expected.axis_W).norm(), 1e-14) << "case " << i;
+      ASSERT_LT((pose.pivot_W - expected.pivot_W).norm(), 1e-14) << "case " << i;
+    }
+  });
+}
+
 TEST_P(RandomChains, PointsAreThoseOfTheTextbook) {
   int points = 0;
   for_all([&](int i, const SerialChain& chain, const JointVector& q, Generator&) {

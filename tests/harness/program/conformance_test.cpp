@@ -37,6 +37,8 @@ Calls g_calls;
 // NOLINTBEGIN(bugprone-reserved-identifier, readability-identifier-naming)
 #define BQSA_FORWARD \
   _ZNK4bqsa11SerialChain7forwardERKN5Eigen6MatrixIdLin1ELi1ELi0ELi16ELi1EEERNS_9ChainPoseE
+#define BQSA_FORWARD_FROM \
+  _ZNK4bqsa11SerialChain12forward_fromERKN5Eigen6MatrixIdLin1ELi1ELi0ELi16ELi1EEES5_RNS_9ChainPoseE
 #define BQSA_JACOBIAN \
   _ZNK4bqsa11SerialChain8jacobianERKNS_9ChainPoseEiRN5Eigen6MatrixIdLin1ELin1ELi0ELi6ELi16EEE
 #define BQSA_HYBRID_IK \
@@ -47,6 +49,8 @@ Calls g_calls;
 extern "C" {
 void BQSA_NAME(__real_, BQSA_FORWARD)(const bqsa::SerialChain*, const bqsa::JointVector&,
                                       bqsa::ChainPose&);
+void BQSA_NAME(__real_, BQSA_FORWARD_FROM)(const bqsa::SerialChain*, const bqsa::JointVector&,
+                                           const bqsa::JointVector&, bqsa::ChainPose&);
 void BQSA_NAME(__real_, BQSA_JACOBIAN)(const bqsa::SerialChain*, const bqsa::ChainPose&, int,
                                        bqsa::TaskJacobian&);
 void BQSA_NAME(__real_, BQSA_HYBRID_IK)(const bqsa::TaskJacobian&, const bqsa::TaskVector&,
@@ -57,6 +61,13 @@ void BQSA_NAME(__wrap_, BQSA_FORWARD)(const bqsa::SerialChain* chain, const bqsa
                                       bqsa::ChainPose& pose) {
   ++g_calls.forward;
   BQSA_NAME(__real_, BQSA_FORWARD)(chain, q, pose);
+}
+
+void BQSA_NAME(__wrap_, BQSA_FORWARD_FROM)(const bqsa::SerialChain* chain,
+                                           const bqsa::JointVector& q_from,
+                                           const bqsa::JointVector& q, bqsa::ChainPose& pose) {
+  ++g_calls.forward;
+  BQSA_NAME(__real_, BQSA_FORWARD_FROM)(chain, q_from, q, pose);
 }
 
 void BQSA_NAME(__wrap_, BQSA_JACOBIAN)(const bqsa::SerialChain* chain, const bqsa::ChainPose& pose,
