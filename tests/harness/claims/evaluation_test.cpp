@@ -190,6 +190,7 @@ TEST(Evaluation, OfTheRepositorysClaimsGivesWhatIsExpected) {
   const std::vector<Sweep> none;
   Laboratory laboratory({.scenarios = BQSA_SOURCE_DIR "/scenarios"}, methods(), none);
   for (const EvaluatedClaim& one : evaluate(claims, laboratory, {})) {
+    if (one.standing == Standing::kNotDecidedHere) continue;  // needs another program
     EXPECT_EQ(one.verdict, one.claim->expected) << one.claim->id;
   }
 }
