@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <tuple>
 
 #include "bqsa/neighbourhood/obstacle_index.hpp"
@@ -15,6 +16,7 @@
 namespace bqsa::harness {
 namespace {
 
+constexpr double kTimes = 3;                         // the way of the lonely arm
 constexpr double kCell = 0.3;                        // [m]
 constexpr double kShortest = 0.03, kLongest = 0.12;  // semi-axes [m]
 
@@ -82,11 +84,21 @@ double wall_seconds() {
 
 }  // namespace
 
-std::vector<Obstacle> draw_crowd(const Problem& lonely, int count) {
-  Problem period = lonely;
+Problem wandering_problem(int dimension) {
+  Problem problem = lonely_problem(dimension);
+  problem.name = "crowd";
+  problem.desired_tip = [tip = problem.desired_tip](double t) -> Eigen::Vector3d {
+    const Eigen::Vector3d from = tip(0);
+    return from + kTimes * (tip(t) - from);
+  };
+  return problem;
+}
+
+std::vector<Obstacle> draw_crowd(const Problem& wandering, int count) {
+  Problem period = wandering;
   period.ticks = kBystanderPeriod;
   const NominalMotion nominal(period);
-  const int dimension = lonely.dimension();
+  const int dimension = wandering.dimension();
   for (int radius = 8;; radius += radius / 4) {
     RandomStream random{static_cast<std::uint64_t>(dimension), 7};
     std::vector<Obstacle> crowd;
@@ -102,13 +114,15 @@ std::vector<Obstacle> draw_crowd(const Problem& lonely, int count) {
 CrowdedSteps run_crowded(const MethodEntry& method, int dimension, int obstacles, int periods,
                          const ContestClock& clock) {
   assert(periods > 0);
-  Problem problem = lonely_problem(dimension);
+  Problem problem = wandering_problem(dimension);
   problem.obstacles = draw_crowd(problem, obstacles);
   CrowdedSteps result{.obstacles = obstacles};
   const double before = wall_seconds();
   ControlLoop loop(with_defaults(method), problem);
   result.prepare_s = wall_seconds() - before;
-  loop.run(2 * kBystanderPeriod);
+  loop.run(1);
+  result.first_bounds = static_cast<double>(loop.counters().bounds);
+  loop.run(2 * kBystanderPeriod - 1);
   const WorkCounters warm = loop.counters();
   std::vector<double> times;
   const int steps = periods * kBystanderPeriod;
@@ -118,6 +132,7 @@ CrowdedSteps run_crowded(const MethodEntry& method, int dimension, int obstacles
     loop.run(1);
     times.push_back(clock() - start);
   }
+  result.mean_s = std::accumulate(times.begin(), times.end(), 0.0) / steps;
   std::ranges::sort(times);
   result.median_s = times[times.size() / 2];
   result.worst_s = times.back();

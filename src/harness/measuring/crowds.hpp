@@ -10,22 +10,29 @@
 
 namespace bqsa::harness {
 
-/// Obstacles all around the arm of `lonely_problem`, one in each cell of a lattice of 0.3 m, drawn from a
+/// The arm of `lonely_problem` on a way three times as long. In space it leaves the skin of neighbour lists now
+/// and then; in the plane it does not, once warm.
+Problem wandering_problem(int dimension);
+
+/// Obstacles all around the arm of `wandering_problem`, one in each cell of a lattice of 0.3 m, drawn from a
 /// seed; the arm moves in the corridor that those leave which would come closer to its nominal motion
 /// than kBystanderClearance. From the arm outwards: a shorter list is the start of a longer one, and once
 /// there are some hundreds of obstacles (in space: some thousands), more are further away.
-std::vector<Obstacle> draw_crowd(const Problem& lonely, int count);
+std::vector<Obstacle> draw_crowd(const Problem& wandering, int count);
 
 /// What a method in its control loop took among so many obstacles.
 struct CrowdedSteps {
   int obstacles = 0;
-  int infeasible = 0;      ///< steps in which the method gave up
-  double prepare_s = 0;    ///< of `prepare`, wall time [s]
-  double median_s = 0;     ///< of a step [s]
-  double worst_s = 0;      ///< of all steps after the warm-up [s]
-  double quadratics = 0;   ///< a step, on average
-  double bounds = 0;       ///< a step, on average
-  double index_bytes = 0;  ///< an obstacle: of the index of neighbour lists [bytes]
+  int infeasible = 0;     ///< steps in which the method gave up
+  double prepare_s = 0;   ///< of `prepare`, wall time [s]
+  double median_s = 0;    ///< of a step [s]
+  double worst_s = 0;     ///< of all steps after the warm-up [s]
+  double quadratics = 0;  ///< a step, on average
+  double mean_s = 0;      ///< of a step, those that make lists included [s]
+  double bounds = 0;  ///< a step, on average; 0 says that no list was made, and then the times do
+                      ///< not tell what making one takes
+  double first_bounds = 0;  ///< of the very first step, which has to make all lists
+  double index_bytes = 0;   ///< an obstacle: of the index of neighbour lists [bytes]
 };
 
 /// Runs the method in the control loop through two periods of the motion to get warm and through `periods`

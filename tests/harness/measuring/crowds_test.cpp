@@ -19,16 +19,16 @@ class Crowds : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Dimensions, Crowds, testing::Values(2, 3));
 
 TEST_P(Crowds, LeaveTheArmACorridor) {
-  const Problem lonely = lonely_problem(GetParam());
-  const std::vector<Obstacle> crowd = draw_crowd(lonely, 3000);
+  const Problem wandering = wandering_problem(GetParam());
+  const std::vector<Obstacle> crowd = draw_crowd(wandering, 3000);
   ASSERT_EQ(crowd.size(), 3000u);
-  ControlLoop loop(methods().front(), lonely);  // `none`
+  ControlLoop loop(methods().front(), wandering);  // `none`
   double nearest = 1e9;
   for (int tick = 0; tick < kBystanderPeriod; tick += 10, loop.run(10)) {
     ChainPose pose;
-    lonely.chain.forward(loop.q(), pose);
+    wandering.chain.forward(loop.q(), pose);
     for (const Obstacle& obstacle : crowd) {
-      for (const Link& link : lonely.chain.links()) {
+      for (const Link& link : wandering.chain.links()) {
         nearest = std::min(nearest, exact_distance(pose.p_WO.col(link.start),
                                                    pose.p_WO.col(link.end), obstacle.shape)
                                         .distance);
@@ -40,9 +40,9 @@ TEST_P(Crowds, LeaveTheArmACorridor) {
 }
 
 TEST_P(Crowds, GrowOutwardsAtTheSameDensity) {
-  const Problem lonely = lonely_problem(GetParam());
-  const std::vector<Obstacle> few = draw_crowd(lonely, 5000);
-  const std::vector<Obstacle> many = draw_crowd(lonely, 40000);
+  const Problem wandering = wandering_problem(GetParam());
+  const std::vector<Obstacle> few = draw_crowd(wandering, 5000);
+  const std::vector<Obstacle> many = draw_crowd(wandering, 40000);
   for (std::size_t k = 0; k < few.size(); ++k) {
     ASSERT_EQ(few[k].shape.center(), many[k].shape.center());
   }
@@ -61,11 +61,11 @@ TEST_P(Crowds, CostAStepOfBqsaHardlyMoreWhenTheyAreManyMore) {
   for (const CrowdedSteps& run : {few, many}) {
     EXPECT_EQ(run.infeasible, 0);
     EXPECT_LT(run.quadratics, 100);
-    EXPECT_LT(run.bounds, 1000);
-    EXPECT_GT(run.bounds, 0);
+    EXPECT_GT(run.first_bounds, 0);
+    EXPECT_LE(run.bounds, run.first_bounds);
     EXPECT_LT(run.index_bytes, 50);
   }
-  EXPECT_LT(many.bounds, 2 * few.bounds);
+  EXPECT_LT(many.first_bounds, 2 * few.first_bounds);
   EXPECT_LE(many.quadratics, 1.01 * few.quadratics);
 }
 
