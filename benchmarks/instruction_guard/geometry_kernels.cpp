@@ -6,7 +6,6 @@
 #include "baselines/closest/batched_test_points.hpp"
 #include "baselines/closest/segment_ellipsoid_distance.hpp"
 #include "baselines/closest/test_point_search.hpp"
-#include "bqsa/batch/instruction_set.hpp"
 #include "bqsa/geometry/conic.hpp"
 #include "bqsa/geometry/nearest_plane.hpp"
 #include "bqsa/geometry/paper_form.hpp"
@@ -168,7 +167,6 @@ Repetition batched_distances() {
   shapes.resize(64, shapes.front());
   scene->ellipsoids.emplace(shapes);
   scene->table.emplace(kLinksPerChain, *scene->ellipsoids);
-  use_instruction_set("AVX2");
   return [scene] {
     double sum = 0;
     for (const Eigen::MatrixX3d& chain : scene->chains) {
@@ -207,7 +205,6 @@ Repetition batched_test_points(baselines::PointBlocks::Lanes lanes) {
             kLinkPoints};
   };
   scene->least.resize(least_needed(*scene->obstacles, others(scene->links)));
-  use_instruction_set("AVX2");
   return [scene, others] {
     least_squared_distances(*scene->obstacles, others(scene->links), baselines::Rounding::kFused,
                             scene->least);
