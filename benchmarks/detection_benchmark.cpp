@@ -104,6 +104,7 @@ bool add_sweeps() {
 /// An obstacle as Field sees it, and an arm as a pose.
 template <typename Field>
 struct Asked {
+  std::vector<Obstacle> obstacles;
   Field field;
   ChainPose pose;
 };
@@ -123,10 +124,12 @@ std::vector<Workload> field_workloads() {
 
 template <typename Field>
 std::vector<Asked<Field>> asked(const std::vector<Workload>& workloads, WorkCounters& counters) {
-  std::vector<Asked<Field>> all;
-  for (const Workload& workload : workloads) {
-    Asked<Field>& one = all.emplace_back();
-    one.field.assign({{"obstacle", workload.obstacles.front()}}, counters);
+  std::vector<Asked<Field>> all(workloads.size());
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const Workload& workload = workloads[k];
+    Asked<Field>& one = all[k];
+    one.obstacles = {{"obstacle", workload.obstacles.front()}};
+    one.field.assign(one.obstacles, counters);
     one.pose.p_WO = workload.poses.front();
   }
   return all;

@@ -222,12 +222,13 @@ template <typename Field, int Dim>
 Repetition first_hits(double clearance) {
   constexpr std::size_t kObstacles = 10;
   struct Scene {
+    std::vector<Obstacle> obstacles;
     Field field;
     std::vector<ChainPose> poses;
     WorkCounters counters;
   };
   const auto scene = std::make_shared<Scene>();
-  std::vector<Obstacle> obstacles;
+  std::vector<Obstacle>& obstacles = scene->obstacles;
   for (const auto& [obstacle, points] : random_chains<Dim>()) {
     if (obstacles.size() < kObstacles) obstacles.push_back({"obstacle", in_space(obstacle)});
     ChainPose& pose = scene->poses.emplace_back();

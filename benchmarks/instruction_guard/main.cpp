@@ -4,7 +4,7 @@
 
 #include <fmt/core.h>
 #include <gnu/libc-version.h>
-#include <hwy/base.h>
+#include <hwy/highway.h>
 #include <sys/utsname.h>
 
 #include <CLI/CLI.hpp>

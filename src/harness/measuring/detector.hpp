@@ -28,8 +28,8 @@ inline constexpr double kTestPointMargin = 0.02;
 
 /// What a detector's answers are worth; `verify_detector` holds it to that.
 enum class Accuracy {
-  kExact,    ///< those of the reference, but for touching to within rounding
-  kLibrary,  ///< the same, but for touching to within the library's tolerance
+  kExact,            ///< those of the reference, but for touching to within rounding
+  kLibrary,          ///< the same, but for touching to within the library's tolerance
   kSinglePrecision,  ///< the same, of a library that computes in single precision
   kSampled,  ///< hits are what has test points closer than the margin, at least, and nothing
              ///< further away than that: misses hits between its test points

@@ -24,10 +24,10 @@ std::vector<std::string> reasons_against_measuring(const BuildInfo& build,
 /// Where measurements come from.
 struct MeasurementOrigin {
   BuildInfo build;
-  MachineState before;     ///< the machine when measuring began
-  double other_cores = 0;  ///< OtherWork::cores() while measuring
+  MachineState before;          ///< the machine when measuring began
+  double other_cores = 0;       ///< OtherWork::cores() while measuring
   std::string instruction_set;  ///< of batched code (bqsa/batch/instruction_set.hpp)
-  std::string effort;      ///< `quick` or `full`
+  std::string effort;           ///< `quick` or `full`
   std::string command_line;
   std::vector<std::string> against;  ///< reasons_against_measuring()
 };

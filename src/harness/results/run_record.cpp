@@ -142,14 +142,11 @@ Json judged_json(const Problem& problem, const Judgement& judgement) {
 }
 
 Json counters_json(const WorkCounters& counters) {
-  return {{"quadratics", counters.quadratics},
-          {"bounds", counters.bounds},
-          {"point_pairs", counters.point_pairs},
-          {"distance_queries", counters.distance_queries},
-          {"kinematics", counters.kinematics},
-          {"jacobians", counters.jacobians},
-          {"linear_solves", counters.linear_solves},
-          {"iterations", counters.iterations}};
+  return {
+      {"quadratics", counters.quadratics},       {"bounds", counters.bounds},
+      {"point_pairs", counters.point_pairs},     {"distance_queries", counters.distance_queries},
+      {"kinematics", counters.kinematics},       {"jacobians", counters.jacobians},
+      {"linear_solves", counters.linear_solves}, {"iterations", counters.iterations}};
 }
 
 Json times_json(const RunTimes& times, bool success, bool external, const MachineState& machine) {
