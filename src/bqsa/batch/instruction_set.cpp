@@ -36,8 +36,8 @@ const InstructionSet* chosen = nullptr;
 }  // namespace
 
 std::span<const InstructionSet> instruction_sets() {
-  static const std::vector<InstructionSet> sets = supported();
-  return sets;
+  static const std::vector<InstructionSet> kSets = supported();
+  return kSets;
 }
 
 const InstructionSet& instruction_set() {
