@@ -18,6 +18,7 @@ void BackwardSearch::step(const StepInput& input, StepOutput& output) {
   go_to(input.tick);
 
   if (!predict(input)) return hold(input.q, Infeasible::kDiverged, 0, -1, output);  // 1, 2
+  if (is_clear(input)) return answer(input, output);  // 3 to 6 would find nothing to do
   const JointVector q_predicted = q_;
 
   const auto found = [&](Way way) {
@@ -60,18 +61,30 @@ Infeasible BackwardSearch::search(const StepInput& input, const JointVector& q_p
     q_refused = q_;
     motion = finish(input, q_predicted, output);  // 5, 6
     if (motion.certified) {
-      output.q = q_;
-      answered_ = true;
-      const double tip_error = (input.p_WT_desired - pose_.tip()).norm();
-      output.state = tip_error > problem_->tolerance ? TickState::kUnclaimed
-                     : output.clamp_count > 0        ? TickState::kClamped
-                                                     : TickState::kFree;
+      answer(input, output);
       return Infeasible::kNot;
     }
   }
   output.link = motion.link;
   output.obstacle = motion.obstacle;
   return Infeasible::kNoFreeMotion;
+}
+
+void BackwardSearch::answer(const StepInput& input, StepOutput& output) {
+  output.q = q_;
+  answered_ = true;
+  const double tip_error = (input.p_WT_desired - pose_.tip()).norm();
+  output.state = tip_error > problem_->tolerance ? TickState::kUnclaimed
+                 : output.clamp_count > 0        ? TickState::kClamped
+                                                 : TickState::kFree;
+}
+
+/// Whether lists that were made before prove that nothing is in the way of the prediction.
+bool BackwardSearch::is_clear(const StepInput& input) const {
+  if (!searches_space() || settings_.release == Release::kFirst) return false;
+  const double distance = problem_->link_radius + problem_->margin + settings_.safety_offset;
+  return forbidden_step(*problem_, input.q, q_) == Infeasible::kNot &&
+         certificate_.is_clear(input.tick, input.q, pose_start_, q_, pose_, distance);
 }
 
 Infeasible BackwardSearch::release_links(const StepInput& input, StepOutput& output) {
@@ -99,7 +112,7 @@ void BackwardSearch::start_at(const JointVector& q) {
     forward();
   }
   answered_ = false;
-  pose_start_ = pose_;
+  pose_start_.p_WO = pose_.p_WO;
 }
 
 bool BackwardSearch::predict(const StepInput& input) {

@@ -54,6 +54,10 @@ class BackwardSearch : public ReactiveMethod {
   /// pose_, and records the clamps if `output` is given. Variants without it never free links so.
   virtual bool free_together(const Eigen::Vector3d& p_WT, const JointBox& box, StepOutput* output);
 
+  /// Whether links hit nothing that keep their distance in space. If so, ticks in which lists prove that
+  /// they do are done after the prediction.
+  virtual bool searches_space() const { return true; }
+
   /// Steps 5 and 6: whether the motion to q_, or to what the variant makes of it, is certified.
   virtual MotionCertificate::Result finish(const StepInput& input, const JointVector& q_predicted,
                                            StepOutput& output);
@@ -92,9 +96,11 @@ class BackwardSearch : public ReactiveMethod {
   Infeasible release_links(const StepInput& input, StepOutput& output);
   void start_at(const JointVector& q);
   bool predict(const StepInput& input);
+  bool is_clear(const StepInput& input) const;
+  void answer(const StepInput& input, StepOutput& output);
 
   MotionCertificate certificate_;
-  ChainPose pose_start_;   ///< at the start of the tick
+  ChainPose pose_start_;   ///< at the start of the tick; of the end-points only
   bool answered_ = false;  ///< whether q_ is the last answer
   TaskJacobian J_tip_;     ///< at the start of the tick
   TrackingIk ik_start_;    ///< of J_tip_

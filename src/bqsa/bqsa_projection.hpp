@@ -45,6 +45,7 @@ class BqsaProjection final : public SpatialSearch {
 
   void go_to(int tick) override { shadows_.go_to(tick); }
   void keep(double distance) override { shadows_.keep(distance); }
+  bool searches_space() const override { return false; }
   int first_hit(const Link& link, int from) const override {
     return shadows_.first_hit(pose_, link, from);
   }

@@ -69,9 +69,9 @@ MotionCertificate::Result MotionCertificate::certify(int tick, const JointVector
                                                      const ChainPose& pose0, const JointVector& q1,
                                                      const ChainPose& pose1) {
   const SerialChain& chain = problem_->chain;
+  if (is_clear(tick, q0, pose0, q1, pose1, 0)) return {};
   q0_ = q0;
   dq_ = q1 - q0;
-  if (is_clear(tick, pose0, pose1)) return {};
   for (int k = 0; k < chain.points(); ++k) {
     bounds_[static_cast<std::size_t>(k)] = bounds_of(chain, dq_, k);
   }
@@ -106,12 +106,17 @@ MotionCertificate::PointBounds MotionCertificate::bounds_of(const Link& link) co
   return {std::max(start.speed, end.speed), std::max(start.acceleration, end.acceleration)};
 }
 
-/// Whether lists made before prove the motion, by bounds that hold for all points.
-bool MotionCertificate::is_clear(int tick, const ChainPose& pose0, const ChainPose& pose1) const {
-  const double turn = dq_.lpNorm<1>();
+/// By bounds that hold for all points.
+bool MotionCertificate::is_clear(int tick, const JointVector& q0, const ChainPose& pose0,
+                                 const JointVector& q1, const ChainPose& pose1,
+                                 double distance) const {
+  double turn = 0;
+  for (int j = 0; j < problem_->chain.joints(); ++j) turn += std::abs(q1(j) - q0(j));
   const PointBounds bounds{turn * reach_, turn * turn * reach_};
   return std::ranges::all_of(problem_->chain.links(), [&](const Link& link) {
-    return neighbours_->is_clear(passage_of(tick, link, pose0, pose1, bounds));
+    Passage passage = passage_of(tick, link, pose0, pose1, bounds);
+    passage.distance = std::max(passage.distance, distance);
+    return neighbours_->is_clear(passage);
   });
 }
 

@@ -65,9 +65,14 @@ class MotionCertificate {
   Result certify(int tick, const JointVector& q0, const JointVector& q1);
 
   /// The same for a caller who knows where the links are.
-  /// @param pose0, pose1  of q0 and q1
+  /// @param pose0, pose1  of q0 and q1; only their end-points are looked at
   Result certify(int tick, const JointVector& q0, const ChainPose& pose0, const JointVector& q1,
                  const ChainPose& pose1);
+
+  /// Whether lists that were made before prove the motion, and that all links keep `distance` [m] from
+  /// all obstacles where it ends. Asks for nothing: false says nothing.
+  bool is_clear(int tick, const JointVector& q0, const ChainPose& pose0, const JointVector& q1,
+                const ChainPose& pose1, double distance) const;
 
  private:
   /// Parts shorter than 2^-kMaxHalvings of the motion are not halved again.
@@ -116,7 +121,6 @@ class MotionCertificate {
   PointBounds bounds_of(const Link& link) const;
   Passage passage_of(int tick, const Link& link, const ChainPose& pose0, const ChainPose& pose1,
                      const PointBounds& bounds) const;
-  bool is_clear(int tick, const ChainPose& pose0, const ChainPose& pose1) const;
   Pair pair_of(int link, int obstacle, int tick, const ChainPose& start);
   double clearance_of(const Link& link, const Ellipsoid& shape, const ChainPose& start) const;
   Result halve(const Part& part, std::size_t first_open, int halvings);

@@ -84,6 +84,8 @@ bool NeighbourLists::fill(double skin, List& list) {
         list.clear_squared = std::min<double>(list.clear_squared, squared);
       });
   std::ranges::sort(list.neighbours, {}, &Neighbour::obstacle);
+  if (!fits || !all_visited) list.clear_squared = 0;  // of those that are missing nothing is known
+  list.clear = std::sqrt(list.clear_squared);
   return fits && all_visited;
 }
 

@@ -50,7 +50,9 @@ class NeighbourLists {
   /// Whether there is a list that proves the passage free. Makes no list.
   bool is_clear(const Passage& passage) const {
     const List& list = lists_[static_cast<std::size_t>(passage.link.end)];
-    return covers(list, passage) && way_squared(list, passage) < list.clear_squared;
+    const double straight = list.clear - passage.sag;
+    return covers(list, passage) && straight > 0 &&
+           ends_squared(list, passage) < straight * straight;
   }
 
   /// The first obstacle, counted from `from`, that is not proven to be free and for which `asked(obstacle)` is
@@ -99,19 +101,25 @@ class NeighbourLists {
     double skin = 0;           ///< wanted [m]
     double skin_squared = 0;   ///< of the skin that it has
     double clear_squared = 0;  ///< square of the way up to which all obstacles are free [m²]
+    double clear = 0;          ///< that way [m]
     bool everything = false;   ///< asks all obstacles
     std::vector<Neighbour> neighbours = {};  ///< in increasing order
   };
 
-  /// Square of how far the link's ends are from where they were, at most [m²].
-  static double way_squared(const List& list, const Passage& passage) {
+  /// Square of how far the link's ends are, in both poses, from where they were, at most [m²].
+  static double ends_squared(const List& list, const Passage& passage) {
     const auto of_pose = [&](const ChainPose& pose) {
       return std::max((pose.p_WO.col(passage.link.start) - list.start).squaredNorm(),
                       (pose.p_WO.col(passage.link.end) - list.end).squaredNorm());
     };
-    double squared = of_pose(passage.to);
-    if (&passage.from == &passage.to) return squared;
-    squared = std::max(squared, of_pose(passage.from));
+    const double squared = of_pose(passage.to);
+    return &passage.from == &passage.to ? squared : std::max(squared, of_pose(passage.from));
+  }
+
+  /// The same for all of the passage.
+  static double way_squared(const List& list, const Passage& passage) {
+    const double squared = ends_squared(list, passage);
+    if (passage.sag == 0) return squared;
     const double way = std::sqrt(squared) + passage.sag;
     return way * way;
   }

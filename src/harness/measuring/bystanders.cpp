@@ -151,7 +151,7 @@ void ControlLoop::run(int ticks) {
     ++input_.tick;
     input_.t = input_.tick * dt_;
     input_.p_WT_desired = desired_[static_cast<std::size_t>(input_.tick % kBystanderPeriod)];
-    output_ = {};
+    clear(output_);
     reactive_->step(input_, output_);
     if (output_.state == TickState::kInfeasible) ++infeasible_;
     if (output_.q.size() == input_.q.size()) input_.q = output_.q;
