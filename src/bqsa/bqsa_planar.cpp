@@ -122,13 +122,20 @@ bool BqsaPlanar::find_exit(int link, int anchor, int lowest, double side, const 
     trial_.offset = offset;
     const double turn = offset - hit_.offset;
     if (!self_motion_.turn_link(link, anchor, turn, trial_.q, trial_.pose)) return false;
+    // The increments would meet the limits already one increment before them, and go to another
+    // anchor; to find their exits, this does too.
+    const double whole = settings_.increment * std::ceil(std::abs(offset) / settings_.increment);
+    const JointVector q_whole = q_ + whole / std::abs(offset) * (trial_.q - q_);
+    if (forbidden_step(*problem_, q_last, trial_.q) != Infeasible::kNot ||
+        forbidden_step(*problem_, q_last, q_whole) != Infeasible::kNot) {
+      return false;
+    }
     const bool hits = find_contact(trial_.pose, lowest, anchor, contact);
     const double gap_hit = gap(hit_.pose, contact);
     const double gap_trial = gap(trial_.pose, contact);
     const double slope = (gap_trial - gap_hit) / turn;
     if (!hits) {
       if (std::min(gap_trial, gap_trial - gap_hit) <= std::abs(slope) * resolution) {
-        if (forbidden_step(*problem_, q_last, trial_.q) != Infeasible::kNot) return false;
         q_ = trial_.q;
         clamp.anchor = anchor;
         clamp.offset = offset;
