@@ -81,7 +81,7 @@ class BackwardSearch : public ReactiveMethod {
   /// pose_ of q_.
   void forward();
 
-  /// Counts a clamping increment. False if this tick has none left.
+  /// Counts a clamping increment or a turn to a computed exit. False if this tick has none left.
   bool take_increment();
 
   BqsaSettings settings_;

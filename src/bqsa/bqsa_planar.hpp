@@ -19,8 +19,10 @@ enum class PlanarVariant {
 /// The settings that go with a variant: the paper's has no corrections of the tip and no settling.
 BqsaSettings default_settings(PlanarVariant variant);
 
-/// Joints clamping in the plane: a link that hits is turned, in growing increments to both sides, by
-/// self-motions that leave the links beyond an anchor a >= i in place.
+/// Joints clamping in the plane: a link that hits is turned by self-motions that leave the links beyond
+/// an anchor a >= i in place. The exact variant computes the turn at which the link comes free from how
+/// deep it is in the obstacle; where that leads nowhere, and in the paper variant always, the link is
+/// turned in growing increments to both sides.
 class BqsaPlanar final : public BackwardSearch {
  public:
   explicit BqsaPlanar(PlanarVariant variant) : BqsaPlanar(variant, default_settings(variant)) {}
@@ -37,6 +39,7 @@ class BqsaPlanar final : public BackwardSearch {
     double direction;
     double offset = 0;
     JointVector q;
+    ChainPose pose;
     bool open = true;
   };
 
@@ -50,7 +53,23 @@ class BqsaPlanar final : public BackwardSearch {
   MotionCertificate::Result finish(const StepInput& input, const JointVector& q_predicted,
                                    StepOutput& output) override;
 
+  /// A link turned from where it was predicted, and the configuration there.
+  struct Turned {
+    double offset;  ///< [rad]
+    JointVector q;
+    ChainPose pose;
+  };
+  /// A link and an obstacle that it hits.
+  struct Contact {
+    const Link* link;
+    int obstacle;
+  };
+
   bool free_link(int link, const JointVector& q_last, Clamp& clamp);
+  bool find_exit(int link, int anchor, int lowest, double side, const JointVector& q_last,
+                 Clamp& clamp);
+  bool find_contact(const ChainPose& pose, int lowest, int highest, Contact& contact) const;
+  double gap(const ChainPose& pose, const Contact& contact) const;
   bool advance(Side& side, int link, int anchor, int lowest, const JointVector& q_last);
   void settle(Side& side, int link, int anchor, int lowest, const JointVector& q_last);
   bool links_free(const ChainPose& pose, int lowest, int highest) const;
@@ -59,7 +78,8 @@ class BqsaPlanar final : public BackwardSearch {
   ObstacleField<2> obstacles_;
   LinkRelease<2> release_;
   PlanarSelfMotion self_motion_;
-  ChainPose candidate_;  ///< pose of the configuration being tried
+  ChainPose candidate_;  ///< of `settle`: pose of the configuration being tried
+  Turned hit_, trial_;   ///< of `find_exit`: the last that hits, and the one being tried
 };
 
 }  // namespace bqsa

@@ -5,13 +5,15 @@ namespace bqsa {
 std::vector<ParameterDeclaration> bqsa_parameters(const BqsaSettings& defaults) {
   const BqsaSettings& d = defaults;
   return {
-      {"increment", "rad", d.increment, 1e-5, 0.1, "clamping increment dTheta"},
+      {"increment", "rad", d.increment, 1e-5, 0.1,
+       "clamping increment dTheta; where the exit is computed, only the unit of how closely"},
       {"search_range", "rad", d.search_range, 1e-4, 3.15,
        "largest way one link is clamped in one tick, d_max"},
       integer_parameter("max_increments", "-", d.max_increments, 1, 1000000,
-                        "clamping increments of one tick, at most"),
-      integer_parameter("settling", "-", d.settling, 0, 40,
-                        "halvings of the last increment, between colliding and free"),
+                        "clamping increments, and turns to a computed exit, of one tick, at most"),
+      integer_parameter(
+          "settling", "-", d.settling, 0, 40,
+          "halvings of an increment, to which a link is settled between colliding and free"),
       {"safety_offset", "m", d.safety_offset, 1e-7, 0.1,
        "distance aimed at beyond link radius and margin, at ticks"},
       integer_parameter("retries", "-", d.retries, 0, 30,

@@ -18,10 +18,11 @@ enum class Release {
 
 struct BqsaSettings {
   HybridIkSettings ik;
-  double increment = 2e-3;      ///< dTheta: clamping increment [rad]
-  double search_range = 0.6;    ///< d_max: largest way one link is clamped in one tick [rad]
-  int max_increments = 20000;   ///< of one tick, all links and retries together; bounds its time
-  int settling = 7;             ///< halvings of the last increment, between colliding and free
+  double increment = 2e-3;    ///< dTheta: clamping increment, where no exit is computed [rad]
+  double search_range = 0.6;  ///< d_max: largest way one link is clamped in one tick [rad]
+  int max_increments =
+      20000;         ///< and computed turns of one tick, all links and retries; bounds its time
+  int settling = 7;  ///< halvings of an increment that a link may end beyond its exit
   double safety_offset = 1e-5;  ///< distance aimed at beyond link radius and margin, at ticks [m]
   int retries = 12;             ///< doublings of safety_offset when a motion cannot be certified
   Release release = Release::kLast;

@@ -3,6 +3,8 @@
 /// 4.2).
 #pragma once
 
+#include <cmath>
+
 #include "bqsa/link_release.hpp"
 #include "bqsa/obstacle_field.hpp"
 #include "bqsa/spatial_search.hpp"
@@ -13,8 +15,9 @@ namespace bqsa {
 ///
 ///     phi = N J(t*)ᵀ g
 ///
-/// in increments of dTheta for the fastest joint, and the tip is put back on its path. g is the
-/// outward normal of the ellipsoid's level at the link's vertex point P(t*), J(t*) the Jacobian of
+/// and the tip is put back on its path: as far as the link's depth asks for to first order and then back to
+/// the exit by the secant method; where that leads nowhere, in increments of dTheta for the fastest
+/// joint. g is the outward normal of the ellipsoid's level at the link's vertex point P(t*), J(t*) the Jacobian of
 /// that point, interpolated between the link's end-points, N the null-space projector of the tip
 /// task.
 class BqsaSpatial final : public SpatialSearch {
@@ -36,7 +39,19 @@ class BqsaSpatial final : public SpatialSearch {
     return release_.release(p_WT, box, q_, pose_, output);
   }
 
+  /// How far the arm moves before the link is asked again.
+  enum class Stride { kEstimated, kIncrement };
+
+  Infeasible push_out(const StepInput& input, const Link& link, Stride stride, StepOutput& output,
+                      int& increments);
   bool clamping_velocity(const Link& link, int obstacle, JointVector& phi);
+  double gap(const Link& link, int obstacle) const {
+    return obstacles_.proximity(pose_, link, obstacle).distance - obstacles_.distance();
+  }
+  /// How far beyond its exit a link may end [rad].
+  double resolution() const { return std::ldexp(settings_.increment, -settings_.settling); }
+  void find_exit(const StepInput& input, const Link& link, int obstacle, double gap_hit,
+                 const JointVector& colliding, const JointVector& change);
 
   ObstacleField<3> obstacles_;
   LinkRelease<3> release_;

@@ -21,7 +21,6 @@ void PlanarSelfMotion::forward(const JointVector& q, ChainPose& pose) {
 
 bool PlanarSelfMotion::turn_link(int link, int anchor, double turn, JointVector& q,
                                  ChainPose& pose) {
-  forward(q, pose);
   const Eigen::Vector2d p_anchor = pose.p_WO.col(anchor).head<2>();
   const double psi_anchor = q.head(anchor).sum();
   const double psi_target = q.head(link).sum() + turn;

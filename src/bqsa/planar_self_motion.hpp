@@ -25,7 +25,7 @@ class PlanarSelfMotion {
   /// @param anchor  a, 3 <= a <= n; for a = n the tip is the fixed point
   /// @param turn    change of the link's absolute angle psi_i [rad]
   /// @param q       joint angles, changed in place; unspecified after failure [rad]
-  /// @param pose    of q after success
+  /// @param pose    of q, before and, after success, afterwards
   /// @return false if Newton does not converge: the links 1 .. a are stretched or aligned
   /// Does not allocate.
   bool turn_link(int link, int anchor, double turn, JointVector& q, ChainPose& pose);

@@ -173,7 +173,7 @@ TEST(BqsaPlanar, KeepsTheTipOfASmallArmOnItsPathToo) {
 
 TEST(BqsaPlanar, EndsATickWhenItsIncrementsAreSpent) {
   BqsaSettings settings;
-  settings.max_increments = 3;
+  settings.max_increments = 1;
   BqsaPlanar method(PlanarVariant::kExact, settings);
   const Replay run = replay(method, planar_7r());
   EXPECT_EQ(run.last.reason, Infeasible::kNoFreeConfiguration);

@@ -28,8 +28,9 @@ TEST(PlanarSelfMotion, TurnsTheLinkAndLeavesEverythingBeyondTheAnchorInPlace) {
     const int link = 1 + trial % anchor;
     const JointVector before = bent_arm(generator, n);
     const double turn = uniform(generator, -0.01, 0.01);
-    ChainPose pose_before, pose_after;
+    ChainPose pose_before;
     chain.forward(before, pose_before);
+    ChainPose pose_after = pose_before;
 
     PlanarSelfMotion self_motion;
     self_motion.assign(chain, counters);
@@ -57,6 +58,7 @@ TEST(PlanarSelfMotion, SaysSoWhenAStretchedArmCannotTurn) {
   self_motion.assign(chain, counters);
   JointVector q = JointVector::Zero(4);
   ChainPose pose;
+  chain.forward(q, pose);
   EXPECT_FALSE(self_motion.turn_link(2, 4, 0.1, q, pose));
 }
 
