@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "baselines/closest/batched_distance.hpp"
@@ -13,7 +14,8 @@
 namespace bqsa::harness {
 namespace {
 
-constexpr int kSide = 16;  // links, and ellipsoids, of a table
+constexpr int kSide = 16;      // links, and ellipsoids, of a table
+constexpr double kAway = 0.6;  // starts of links and centres, on each axis [m]
 
 struct Links {
   Eigen::Matrix<double, kSide, 3> starts, ends;
@@ -23,7 +25,7 @@ Links draw_links(RandomStream& random) {
   constexpr double kLongest = 0.5;  // [m]
   Links links;
   for (int i = 0; i < kSide; ++i) {
-    for (double& x : links.starts.row(i)) x = random.uniform(-1, 1);
+    for (double& x : links.starts.row(i)) x = random.uniform(-kAway, kAway);
     links.ends.row(i) =
         links.starts.row(i) + random.uniform(0, kLongest) * random.direction(3).transpose();
   }
@@ -34,7 +36,7 @@ std::vector<Ellipsoid> draw_eggs(RandomStream& random) {
   std::vector<Ellipsoid> eggs;
   for (int j = 0; j < kSide; ++j) {
     Eigen::Vector3d center, axes;
-    for (double& x : center) x = random.uniform(-1, 1);
+    for (double& x : center) x = random.uniform(-kAway, kAway);
     for (double& axis : axes) axis = random.log_uniform(0.05, 0.5);
     const Eigen::Vector4d q = random.quaternion();
     eggs.emplace_back(center, axes, Eigen::Quaterniond(q(0), q(1), q(2), q(3)).toRotationMatrix());
@@ -55,15 +57,15 @@ struct Reference {
   Real t;         ///< of the closest point, if they are apart
 };
 
-/// Where `decreasing` becomes negative, between 0 and `most`, to the last digit.
+/// Where `decreasing` becomes negative, between 0 and `most`, to a rounding of `most`.
 template <typename Decreasing>
 Real root_of(const Decreasing& decreasing, Real most) {
   Real low = 0, high = most;
-  for (;;) {
+  while (high - low > std::numeric_limits<Real>::epsilon() * most) {
     const Real middle = low + (high - low) / 2;
-    if (middle <= low || middle >= high) return middle;
     (decreasing(middle) >= 0 ? low : high) = middle;
   }
+  return high < most ? low : most;
 }
 
 /// Bisection for the point of the link from u to u + v, and for each of its points bisection for the nearest
