@@ -12,7 +12,7 @@ tools/install_packages.sh program
 echo "building (first time: a few minutes)"
 tools/quiet.sh $logs/configure.log cmake --preset release \
   -DBQSA_BUILD_TESTS=OFF -DBQSA_BUILD_BENCHMARKS=OFF
-tools/quiet.sh $logs/build.log cmake --build --preset release --target bqsa-bench companions
+tools/quiet.sh $logs/build.log cmake --build --preset release --target bqsa-bench count_allocations
 
 rm -rf "$out"
 tools/random_problems.sh quick "$out/random_problems"

@@ -1,5 +1,6 @@
 #include "harness/measuring/crowds.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cassert>
 #include <chrono>
@@ -16,7 +17,7 @@
 namespace bqsa::harness {
 namespace {
 
-constexpr double kTimes = 3;                         // the way of the lonely arm
+constexpr double kTurn = std::numbers::pi / 2;       // about the base [rad]
 constexpr double kCell = 0.3;                        // [m]
 constexpr double kShortest = 0.03, kLongest = 0.12;  // semi-axes [m]
 
@@ -87,9 +88,13 @@ double wall_seconds() {
 Problem wandering_problem(int dimension) {
   Problem problem = lonely_problem(dimension);
   problem.name = "crowd";
-  problem.desired_tip = [tip = problem.desired_tip](double t) -> Eigen::Vector3d {
-    const Eigen::Vector3d from = tip(0);
-    return from + kTimes * (tip(t) - from);
+  ChainPose pose;
+  problem.chain.forward(problem.start, pose);
+  const Eigen::Vector3d base = pose.p_WO.col(0), from = pose.tip() - base;
+  const double period = kBystanderPeriod * problem.dt;
+  problem.desired_tip = [base, from, period](double t) -> Eigen::Vector3d {
+    const double turn = kTurn / 2 * (1 - std::cos(2 * std::numbers::pi * t / period));
+    return base + Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()) * from;
   };
   return problem;
 }
@@ -144,17 +149,17 @@ CrowdedSteps run_crowded(const MethodEntry& method, int dimension, int obstacles
   return result;
 }
 
-double growth_exponent(std::span<const CrowdedSteps> runs) {
+double growth_exponent(std::span<const CrowdedSteps> runs, double CrowdedSteps::*quantity) {
   assert(runs.size() > 1);
   double mean_x = 0, mean_y = 0;
   for (const CrowdedSteps& run : runs) {
     mean_x += std::log(run.obstacles) / static_cast<double>(runs.size());
-    mean_y += std::log(run.median_s) / static_cast<double>(runs.size());
+    mean_y += std::log(run.*quantity) / static_cast<double>(runs.size());
   }
   double xy = 0, xx = 0;
   for (const CrowdedSteps& run : runs) {
     const double x = std::log(run.obstacles) - mean_x;
-    xy += x * (std::log(run.median_s) - mean_y);
+    xy += x * (std::log(run.*quantity) - mean_y);
     xx += x * x;
   }
   return xy / xx;

@@ -10,8 +10,8 @@
 
 namespace bqsa::harness {
 
-/// The arm of `lonely_problem` on a way three times as long. In space it leaves the skin of neighbour lists now
-/// and then; in the plane it does not, once warm.
+/// The arm of `lonely_problem`, its tip going to and fro on a quarter of a circle around the base: so far and so fast
+/// that it leaves the skin of neighbour lists again and again.
 Problem wandering_problem(int dimension);
 
 /// Obstacles all around the arm of `wandering_problem`, one in each cell of a lattice of 0.3 m, drawn from a
@@ -41,8 +41,7 @@ struct CrowdedSteps {
 CrowdedSteps run_crowded(const MethodEntry& method, int dimension, int obstacles, int periods = 10,
                          const ContestClock& clock = thread_cpu_seconds);
 
-/// The slope of log(median time) over log(obstacles), by least squares; at least two numbers of
-/// obstacles.
-double growth_exponent(std::span<const CrowdedSteps> runs);
+/// The slope of log(quantity) over log(obstacles), by least squares; at least two numbers of obstacles.
+double growth_exponent(std::span<const CrowdedSteps> runs, double CrowdedSteps::*quantity);
 
 }  // namespace bqsa::harness

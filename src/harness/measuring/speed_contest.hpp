@@ -21,6 +21,6 @@ struct SpeedContestant {
 /// Adds their times of one unit to a sweep of one size. There are few of them, so that each has more
 /// rounds than the settings say.
 void run_speed_contest(const std::vector<SpeedContestant>& contestants, ContestSettings settings,
-                       Sweep& sweep);
+                       Sweep& sweep, const ContestClock& clock = thread_cpu_seconds);
 
 }  // namespace bqsa::harness

@@ -7,6 +7,7 @@
 
 #include "harness/measuring/bystanders.hpp"
 #include "harness/measuring/kdl_control_loop.hpp"
+#include "harness/measuring/plain_kinematics.hpp"
 #include "harness/measuring/speed_contest.hpp"
 #include "harness/methods.hpp"
 
@@ -15,10 +16,10 @@ namespace {
 
 constexpr int kFewObstacles = 8, kManyObstacles = 64;
 
-/// Forward kinematics and Jacobian of the tip, at the postures of one period of tracking.
-class Kinematics {
+/// Those of one period of tracking, over and over.
+class Postures {
  public:
-  explicit Kinematics(const Problem& lonely) : chain_(lonely.chain) {
+  explicit Postures(const Problem& lonely) {
     ControlLoop tracking(parse_method_spec("none", methods()), lonely);
     for (int tick = 0; tick < kBystanderPeriod; ++tick) {
       postures_.push_back(tracking.q());
@@ -26,21 +27,53 @@ class Kinematics {
     }
   }
 
+  const JointVector& next() {
+    at_ = at_ + 1 < postures_.size() ? at_ + 1 : 0;
+    return postures_[at_];
+  }
+
+ private:
+  std::vector<JointVector> postures_;
+  std::size_t at_ = 0;
+};
+
+/// Forward kinematics of all end-points and Jacobian of the tip.
+class Kinematics {
+ public:
+  explicit Kinematics(const Problem& lonely) : chain_(lonely.chain), postures_(lonely) {}
+
   void make(int passes) {
     for (int i = 0; i < passes; ++i) {
-      chain_.forward(postures_[posture_], pose_);
+      chain_.forward(postures_.next(), pose_);
       chain_.jacobian(pose_, chain_.points() - 1, jacobian_);
       sum_ += jacobian_(0, 0) + pose_.p_WO(0, 1);
-      posture_ = posture_ + 1 < postures_.size() ? posture_ + 1 : 0;
     }
   }
 
  private:
   SerialChain chain_;
-  std::vector<JointVector> postures_;
-  std::size_t posture_ = 0;
+  Postures postures_;
   ChainPose pose_;
   TaskJacobian jacobian_;
+  double sum_ = 0;  // so that the answers are consumed
+};
+
+/// The same by PlainKinematics.
+class TextbookKinematics {
+ public:
+  explicit TextbookKinematics(const Problem& lonely)
+      : plain_(lonely.chain.description()), postures_(lonely) {}
+
+  void make(int passes) {
+    for (int i = 0; i < passes; ++i) {
+      plain_.update(postures_.next());
+      sum_ += plain_.jacobian()(0, 0) + plain_.tip().x();
+    }
+  }
+
+ private:
+  PlainKinematics plain_;
+  Postures postures_;
   double sum_ = 0;  // so that the answers are consumed
 };
 
@@ -51,6 +84,7 @@ class ArmContest {
       : name_(std::move(name)),
         lonely_(std::move(lonely)),
         kinematics_(lonely_),
+        textbook_(lonely_),
         kdl_(lonely_, task) {
     const std::vector<Obstacle> bystanders = draw_bystanders(lonely_, kManyObstacles);
     for (const int k : {kFewObstacles, kManyObstacles}) {
@@ -58,6 +92,8 @@ class ArmContest {
       problem.obstacles.assign(bystanders.begin(), bystanders.begin() + k);
       add_loop(fmt::format("bqsa_{}", k), "bqsa", problem);
       add_loop(fmt::format("bqsa_{}_once", k), "bqsa:corrections=1", problem);
+      if (lonely_.dimension() == 2)
+        add_loop(fmt::format("bqsa_paper_{}", k), "bqsa_paper", problem);
     }
   }
 
@@ -66,6 +102,7 @@ class ArmContest {
       contestants.push_back({name_ + ':' + what, std::move(repeat)});
     };
     add("kinematics", [this](int passes) { kinematics_.make(passes); });
+    add("plain_kinematics", [this](int passes) { textbook_.make(passes); });
     add("kdl", [this](int steps) { kdl_.run(steps); });
     for (Loop& one : loops_) add(one.name, [&one](int steps) { one.loop.run(steps); });
   }
@@ -94,6 +131,7 @@ class ArmContest {
   std::string name_;
   Problem lonely_;
   Kinematics kinematics_;
+  TextbookKinematics textbook_;
   KdlControlLoop kdl_;
   std::deque<Problem> problems_;  // where addresses stay, as with the loops
   std::deque<Loop> loops_;

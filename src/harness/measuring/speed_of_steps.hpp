@@ -14,8 +14,11 @@ inline constexpr std::string_view kSpeedOfSteps = "speed_steps";
 
 /// Series `ARM:WHAT`, ARM being `planar_7r` or `puma560`:
 /// - `kinematics`: forward kinematics of all end-points and the tip's Jacobian;
+/// - `plain_kinematics`: the same as textbooks have it (plain_kinematics.hpp);
 /// - `bqsa_8`, `bqsa_64`: a control step of `bqsa` among so many obstacles;
 /// - `bqsa_8_once`, `bqsa_64_once`: the same with one correction of the tip's error at most;
+/// - `bqsa_paper_8`, `bqsa_paper_64`, of planar_7r: the paper's own step, of first order: it does not correct
+///   the tip, nor looks at the motion between ticks;
 /// - `kdl`: a step of Orocos KDL (kdl_control_loop.hpp), without obstacles: with two task rows of weight 1
 ///   for planar_7r, with the full task of six rows for puma560.
 /// @param sweep  named, empty

@@ -53,6 +53,7 @@ Sweep made_up_sweep(const std::string& name, SweepAxis axis, int dimension) {
 TimesOrigin made_up_origin() {
   MeasurementOrigin origin{.build = build_info(),
                            .before = {},
+                           .instruction_set = "AVX2",
                            .effort = "quick",
                            .command_line = "x",
                            .against = {"a busy machine"}};

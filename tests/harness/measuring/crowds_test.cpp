@@ -22,7 +22,7 @@ TEST_P(Crowds, LeaveTheArmACorridor) {
   const Problem wandering = wandering_problem(GetParam());
   const std::vector<Obstacle> crowd = draw_crowd(wandering, 3000);
   ASSERT_EQ(crowd.size(), 3000u);
-  ControlLoop loop(methods().front(), wandering);  // `none`
+  ControlLoop loop(with_defaults(methods().front()), wandering);  // `none`
   double nearest = 1e9;
   for (int tick = 0; tick < kBystanderPeriod; tick += 10, loop.run(10)) {
     ChainPose pose;
@@ -62,6 +62,7 @@ TEST_P(Crowds, CostAStepOfBqsaHardlyMoreWhenTheyAreManyMore) {
     EXPECT_EQ(run.infeasible, 0);
     EXPECT_LT(run.quadratics, 100);
     EXPECT_GT(run.first_bounds, 0);
+    EXPECT_GT(run.bounds, 0) << "no list is made any more";
     EXPECT_LE(run.bounds, run.first_bounds);
     EXPECT_LT(run.index_bytes, 50);
   }
@@ -72,9 +73,11 @@ TEST_P(Crowds, CostAStepOfBqsaHardlyMoreWhenTheyAreManyMore) {
 TEST(GrowthExponent, IsTheSlopeOfTheLogarithms) {
   std::vector<CrowdedSteps> runs;
   for (const int k : {100, 1000, 30'000}) {
-    runs.push_back({.obstacles = k, .median_s = 3e-9 * std::pow(k, 0.4)});
+    runs.push_back(
+        {.obstacles = k, .mean_s = 1e-9 * std::pow(k, 0.4), .bounds = 5 * std::pow(k, 0.7)});
   }
-  EXPECT_NEAR(growth_exponent(runs), 0.4, 1e-12);
+  EXPECT_NEAR(growth_exponent(runs, &CrowdedSteps::mean_s), 0.4, 1e-12);
+  EXPECT_NEAR(growth_exponent(runs, &CrowdedSteps::bounds), 0.7, 1e-12);
 }
 
 }  // namespace

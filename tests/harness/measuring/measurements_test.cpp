@@ -55,6 +55,7 @@ Measurements example() {
   return {.origin = {.build = release_build(),
                      .before = idle_machine(),
                      .other_cores = 0.25,
+                     .instruction_set = "AVX2",
                      .effort = "quick",
                      .command_line = "bqsa-bench measure",
                      .against = {"a reason"}},
@@ -88,6 +89,7 @@ TEST_F(MeasurementsFile, ReadsWhatWasWritten) {
   EXPECT_EQ(read.origin.before.processor, "Some Processor");
   EXPECT_EQ(read.origin.before.load, 0.1);
   EXPECT_EQ(read.origin.other_cores, 0.25);
+  EXPECT_EQ(read.origin.instruction_set, "AVX2");
   EXPECT_THAT(read.origin.against, ElementsAre("a reason"));
   ASSERT_EQ(read.sweeps.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
