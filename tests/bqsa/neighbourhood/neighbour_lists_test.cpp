@@ -392,6 +392,18 @@ TEST(NeighbourLists, MoreThanAListCanHoldAreAskedOneByOneWithoutAllocating) {
   EXPECT_EQ(guard.allocations(), 0U);
 }
 
+TEST(NeighbourLists, ThoseThatAreIncompleteProveNothing) {
+  const std::vector<Obstacle> obstacles(
+      6000, {"near", Ellipsoid(Vector3d(0, 0.15, 0), Vector3d::Constant(0.1))});
+  WorkCounters counters;
+  NeighbourLists lists(std::make_shared<ObstacleIndex>(obstacles), FreeBy::kSpace, counters);
+  const OneLink one(Vector3d(-1, 0, 0), Vector3d(1, 0, 0));
+  int visited = 0;
+  lists.visit({0, one.link, one.pose, one.pose, 0.2, 0}, [&visited](int) { ++visited; });
+  EXPECT_EQ(visited, 6000);
+  EXPECT_FALSE(lists.is_clear({0, one.link, one.pose, one.pose, 0.01, 0}));
+}
+
 TEST(ObstacleIndex, TakesLessThan50BytesAnObstacle) {
   const FarCrowd crowd;
   const ObstacleIndex index(crowd.problem.obstacles);
