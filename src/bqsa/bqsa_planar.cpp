@@ -122,8 +122,7 @@ bool BqsaPlanar::find_exit(int link, int anchor, int lowest, double side, const 
     trial_.offset = offset;
     const double turn = offset - hit_.offset;
     if (!self_motion_.turn_link(link, anchor, turn, trial_.q, trial_.pose)) return false;
-    // The increments would meet the limits already one increment before them, and go to another
-    // anchor; to find their exits, this does too.
+    // Within an increment of the limits the increments decide: another anchor may have a better exit.
     const double whole = settings_.increment * std::ceil(std::abs(offset) / settings_.increment);
     const JointVector q_whole = q_ + whole / std::abs(offset) * (trial_.q - q_);
     if (forbidden_step(*problem_, q_last, trial_.q) != Infeasible::kNot ||

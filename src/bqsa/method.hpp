@@ -52,13 +52,11 @@ enum class Infeasible {
 
 /// One link moved out of one obstacle.
 struct Clamp {
-  int link = 0;       ///< the paper's i
-  int obstacle = 0;   ///< index into Problem::obstacles
-  int anchor = 0;     ///< a: links 1 .. a moved; for spatial methods the number of joints
-  double offset = 0;  ///< turn of the link (planar), largest joint change (spatial) [rad]
-  int increments =
-      0;  ///< turns tried to clear it, by an increment or to a computed exit; the settling
-          ///< is not counted; of obstacles cleared together, with the first
+  int link = 0;        ///< the paper's i
+  int obstacle = 0;    ///< index into Problem::obstacles
+  int anchor = 0;      ///< a: links 1 .. a moved; for spatial methods the number of joints
+  double offset = 0;   ///< turn of the link (planar), largest joint change (spatial) [rad]
+  int increments = 0;  ///< turns tried to clear it; of obstacles cleared together, with the first
 };
 
 struct StepInput {

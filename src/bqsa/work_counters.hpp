@@ -15,8 +15,7 @@ struct WorkCounters {
   std::uint64_t kinematics = 0;        ///< forward kinematics of the whole chain
   std::uint64_t jacobians = 0;         ///< Jacobians of one point
   std::uint64_t linear_solves = 0;     ///< decompositions of a task matrix
-  std::uint64_t iterations =
-      0;  ///< steps of the method's own search; BQSA: increments and computed turns
+  std::uint64_t iterations = 0;  ///< steps of the method's own search; BQSA: clamping turns tried
 
   bool operator==(const WorkCounters&) const = default;
   WorkCounters operator+(const WorkCounters& other) const {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "bqsa/bqsa_methods.hpp"
+#include "bqsa/geometry/separation.hpp"
 #include "support/paper_problems.hpp"
 #include "support/replay.hpp"
 #include "support/sampling.hpp"
@@ -36,6 +37,7 @@ TEST_P(PlanarScene, ExactVariantIsFreeAtAndBetweenTicks) {
   EXPECT_THAT(run.clamped, UnorderedElementsAre(kLink6Obstacle, kLink7Object));
   EXPECT_LT(run.tip_error, 1e-8);
   EXPECT_LT(run.largest_step, 2 * kDegree);
+  EXPECT_LE(run.most_increments, 4) << "exits are computed, not searched for in increments";
 }
 
 TEST_P(PlanarScene, PaperVariantIsFreeWithinItsReportedError) {
@@ -169,6 +171,40 @@ TEST(BqsaPlanar, KeepsTheTipOfASmallArmOnItsPathToo) {
   const Replay run = replay(method, small);
   EXPECT_EQ(run.q.size(), 401U);
   EXPECT_LT(run.tip_error, 1e-8);
+}
+
+/// A link keeps what the halvings of an increment would leave it, and hardly more.
+TEST(BqsaPlanar, LeavesLinksAtTheExit) {
+  const Problem problem = planar_7r();
+  BqsaSettings settings;
+  settings.retries = 0;
+  BqsaPlanar method(PlanarVariant::kExact, settings);
+  method.prepare(problem);
+  const double beyond = settings.increment / 128 * problem.chain.reach(0, 7);
+  StepInput input;
+  StepOutput output;
+  ChainPose pose;
+  input.q = problem.start;
+  int cleared = 0;
+  for (input.tick = 1; input.tick <= problem.ticks; ++input.tick) {
+    input.t = problem.time(input.tick);
+    input.p_WT_desired = problem.desired_tip(input.t);
+    method.step(input, output);
+    if (output.state == TickState::kInfeasible) break;
+    input.q = output.q;
+    problem.chain.forward(output.q, pose);
+    for (int c = 0; c < output.clamp_count; ++c) {
+      const Clamp& clamp = output.clamps[static_cast<std::size_t>(c)];
+      const Ellipsoid& shape =
+          problem.obstacles[static_cast<std::size_t>(clamp.obstacle)].at(input.tick);
+      const double kept =
+          separation<3>(shape, pose.p_WO.col(clamp.link - 1), pose.p_WO.col(clamp.link));
+      EXPECT_GT(kept, settings.safety_offset) << input.tick;
+      EXPECT_LT(kept, settings.safety_offset + beyond) << input.tick;
+      ++cleared;
+    }
+  }
+  EXPECT_GT(cleared, 30);
 }
 
 TEST(BqsaPlanar, EndsATickWhenItsIncrementsAreSpent) {
