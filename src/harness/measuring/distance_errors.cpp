@@ -14,7 +14,8 @@
 namespace bqsa::harness {
 namespace {
 
-constexpr int kSide = 16;      // links, and ellipsoids, of a table
+constexpr int kSide = 16;  // links, and ellipsoids, of a table
+constexpr std::int64_t kPairs = std::int64_t{kSide} * kSide;
 constexpr double kAway = 0.6;  // starts of links and centres, on each axis [m]
 
 struct Links {
@@ -126,10 +127,11 @@ Reference reference_of(const Eigen::Vector3d& start, const Eigen::Vector3d& end,
 void compare(const Links& links, const std::vector<Reference>& references,
              const baselines::DistanceTable& table, DistanceErrors& errors) {
   constexpr Real kTouching = 1e-9L;
+  auto reference = references.begin();
   for (int i = 0; i < kSide; ++i) {
     const double length = (links.ends.row(i) - links.starts.row(i)).norm();
     for (int j = 0; j < kSide; ++j) {
-      const Reference& truth = references[static_cast<std::size_t>(i * kSide + j)];
+      const Reference& truth = *reference++;
       const std::size_t at = table.index(i, j);
       const bool apart = truth.distance > 0;
       errors.disagreed +=
@@ -149,7 +151,7 @@ DistanceErrors batched_distance_errors(std::int64_t pairs, std::uint64_t seed) {
   RandomStream random({seed, 5});
   const std::string_view in_use = instruction_set().name;
   DistanceErrors errors;
-  for (; errors.pairs < pairs; errors.pairs += kSide * kSide) {
+  for (; errors.pairs < pairs; errors.pairs += kPairs) {
     const Links links = draw_links(random);
     const std::vector<Ellipsoid> shapes = draw_eggs(random);
     std::vector<Reference> references;
