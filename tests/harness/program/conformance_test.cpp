@@ -1,19 +1,22 @@
 // What the contract asks of every method, whatever it does: one suite over the whole list, and over
 // what `new-method` writes.
 //
-// The linker lets calls of the chain's kinematics and of the hybrid inverse kinematics pass through
-// here (CMakeLists.txt, --wrap), so that the work counters are compared with calls that were made.
+// The linker lets calls of the chain's kinematics, of one configuration or many, and of the hybrid
+// inverse kinematics pass through here (CMakeLists.txt, --wrap), so that the work counters are compared
+// with calls that were made.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "baselines/skeleton.hpp"
+#include "bqsa/batch/configuration_check.hpp"
 #include "bqsa/hybrid_ik.hpp"
 #include "harness/conformance.hpp"
 #include "harness/generator/generator.hpp"
@@ -43,6 +46,8 @@ Calls g_calls;
   _ZNK4bqsa11SerialChain8jacobianERKNS_9ChainPoseEiRN5Eigen6MatrixIdLin1ELin1ELi0ELi6ELi16EEE
 #define BQSA_HYBRID_IK \
   _ZN4bqsa15solve_hybrid_ikERKN5Eigen6MatrixIdLin1ELin1ELi0ELi6ELi16EEERKNS1_IdLin1ELi1ELi0ELi6ELi1EEERKNS1_IdLin1ELi1ELi0ELi16ELi1EEESA_RKNS_16HybridIkSettingsERNS_14HybridIkResultE
+#define BQSA_CERTAINLY_FREE \
+  _ZNK4bqsa18ConfigurationCheck14certainly_freeERKNS_18ConfigurationArrayESt4spanItLm18446744073709551615EE
 #define BQSA_JOIN(a, b) a##b
 #define BQSA_NAME(prefix, name) BQSA_JOIN(prefix, name)
 
@@ -56,6 +61,9 @@ void BQSA_NAME(__real_, BQSA_JACOBIAN)(const bqsa::SerialChain*, const bqsa::Cha
 void BQSA_NAME(__real_, BQSA_HYBRID_IK)(const bqsa::TaskJacobian&, const bqsa::TaskVector&,
                                         const bqsa::JointVector&, const bqsa::JointVector&,
                                         const bqsa::HybridIkSettings&, bqsa::HybridIkResult&);
+void BQSA_NAME(__real_, BQSA_CERTAINLY_FREE)(const bqsa::ConfigurationCheck*,
+                                             const bqsa::ConfigurationArray&,
+                                             std::span<std::uint16_t>);
 
 void BQSA_NAME(__wrap_, BQSA_FORWARD)(const bqsa::SerialChain* chain, const bqsa::JointVector& q,
                                       bqsa::ChainPose& pose) {
@@ -83,6 +91,13 @@ void BQSA_NAME(__wrap_, BQSA_HYBRID_IK)(const bqsa::TaskJacobian& J, const bqsa:
                                         bqsa::HybridIkResult& result) {
   ++g_calls.hybrid_ik;
   BQSA_NAME(__real_, BQSA_HYBRID_IK)(J, x_dot, weights, phi, settings, result);
+}
+
+void BQSA_NAME(__wrap_, BQSA_CERTAINLY_FREE)(const bqsa::ConfigurationCheck* check,
+                                             const bqsa::ConfigurationArray& configurations,
+                                             std::span<std::uint16_t> free) {
+  g_calls.forward += static_cast<std::uint64_t>(configurations.count());
+  BQSA_NAME(__real_, BQSA_CERTAINLY_FREE)(check, configurations, free);
 }
 }
 // NOLINTEND(bugprone-reserved-identifier, readability-identifier-naming)
