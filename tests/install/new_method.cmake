@@ -3,7 +3,7 @@
 include(${CMAKE_CURRENT_LIST_DIR}/package_user.cmake)
 file(REMOVE_RECURSE ${WORK_DIR})
 set(tree ${WORK_DIR}/tree)
-foreach(part CMakeLists.txt cmake src tests)
+foreach(part CMakeLists.txt benchmarks cmake src tests)
   file(COPY ${SOURCE_DIR}/${part} DESTINATION ${tree})
 endforeach()
 configure(${tree} ${WORK_DIR}/in_tree

@@ -29,9 +29,11 @@ V polynomial(V z, V z2, double c0, double c1, double c2, double c3, double c4, d
   return low + z2 * (middle + z2 * high);
 }
 
-/// Lane by lane, zero where i + lane >= count.
+/// Lane by lane, zero where i + lane >= count. Not by a masked load: without masks in hardware it needs
+/// aligned numbers.
 V load(const double* numbers, int i, int count) {
-  return hn::MaskedLoad(hn::FirstN(kTag, static_cast<std::size_t>(count - i)), kTag, numbers + i);
+  return hn::IfThenElseZero(hn::FirstN(kTag, static_cast<std::size_t>(count - i)),
+                            hn::LoadU(kTag, numbers + i));
 }
 
 /// False, and nothing said about what is stored, if an angle is larger than 1e5 or no number.

@@ -171,5 +171,29 @@ TEST_F(SineCosine, DoNotAllocate) {
   EXPECT_EQ(guard.allocations(), 0U);
 }
 
+TEST_F(SineCosine, NeedNoMoreThanTheAlignmentOfNumbers) {
+  struct alignas(64) Odd {
+    double first = 0;
+    Angles q{}, offset{}, sine{}, cosine{};
+  };
+  for (const InstructionSet& set : instruction_sets()) {
+    use_instruction_set(set.name);
+    for (int count = 1; count <= kMaxAngles; ++count) {
+      Odd odd;
+      for (std::size_t i = 0; i < kMaxAngles; ++i) {
+        odd.q[i] = 0.3 * static_cast<double>(i);
+        odd.offset[i] = -1;
+      }
+      const Angles turned = odd.q;
+      sine_cosine(odd.q.data(), odd.offset, count, odd.sine, odd.cosine);
+      EXPECT_TRUE(turn_slightly(odd.q.data(), turned.data(), count, odd.sine, odd.cosine));
+      for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+        EXPECT_NEAR(odd.sine[i], std::sin(odd.q[i] - 1), kBound) << set.name;
+        EXPECT_NEAR(odd.cosine[i], std::cos(odd.q[i] - 1), kBound) << set.name;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace bqsa

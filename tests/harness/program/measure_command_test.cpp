@@ -52,7 +52,8 @@ TEST_F(Measure, RefusesBeforeItMeasures) {
   ProgramResult result = run_bqsa_bench({"measure", "--sweep", "nk", "--out", out_});
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.err, HasSubstr("--sweep: expected one of plane_nm, plane_nk, space_nm, "
-                                    "space_nk, step_nk, space_step_nk, gate, got 'nk'"));
+                                    "space_nk, step_nk, space_step_nk, gate, "
+                                    "speed_pairs, speed_steps, got 'nk'"));
   result = run_bqsa_bench({"measure", "--out", "/no/such/directory/m.json"});
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.err, HasSubstr("/no/such/directory/m.json"));
