@@ -88,18 +88,22 @@ void decide_standing(EvaluatedClaim& one, const TimesState& times, const Gate& g
   }
   if (one.verdict == claim.expected) return;
   one.standing = Standing::kBroken;
-  if (!claim.timing() || one.verdict != Verdict::kUndecided) {
+  const bool decided = one.verdict != Verdict::kUndecided;
+  if (!claim.timing() || decided) {
     // A self-test that fails says nothing of the program where times are only indicative.
     const bool excused = claim.gate && !times.reasons_against.empty();
     if (!excused) return;
   }
   if (!one.reason.empty()) {
     if (gate.there) one.standing = Standing::kNotDecidedHere;  // the self-test itself is broken
-  } else if (!times.reasons_against.empty()) {
-    one.standing = Standing::kNotDecidedHere;
-    one.reason =
-        fmt::format("times are only indicative: {}", fmt::join(times.reasons_against, ", "));
+    return;
   }
+  // Wide intervals tell of the machine; what got slower fails its bound.
+  one.standing = Standing::kNotDecidedHere;
+  one.reason =
+      times.reasons_against.empty()
+          ? "intervals reach across a bound; measure again, or longer"
+          : fmt::format("times are only indicative: {}", fmt::join(times.reasons_against, ", "));
 }
 
 }  // namespace

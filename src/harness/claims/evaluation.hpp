@@ -19,7 +19,7 @@ enum class Standing {
 
   /// Nothing is decided: this machine lacks the vector instructions that bounds are given for, or this
   /// build a program that is needed; or the claim rests on times, and the gate's self-test failed, or
-  /// intervals are too wide on a build or machine whose times are only indicative.
+  /// intervals reach across a bound.
   kNotDecidedHere,
 };
 

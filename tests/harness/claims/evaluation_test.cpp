@@ -139,15 +139,17 @@ TEST(Evaluation, AnotherSlopeGivesAnotherVerdict) {
 }
 
 TEST(Evaluation, WithoutAGateThatTellsTiesFromDifferencesNoTimeIsJudged) {
-  for (const Sweep& gate : {synthetic_gate(1.5, 1.5), synthetic_gate(1, 1.1),
-                            synthetic_gate(0.8, 1.5), synthetic_gate(1, 1.5, 10)}) {
+  const Sweep wide = synthetic_gate(1, 1.5, 10);
+  for (const Sweep& gate :
+       {synthetic_gate(1.5, 1.5), synthetic_gate(1, 1.1), synthetic_gate(0.8, 1.5), wide}) {
     std::vector<Sweep> sweeps = sweeps_of_power(1);
     sweeps[0] = gate;
     const Evaluation one = evaluation_of(kGate + kLinear, sweeps);
     EXPECT_EQ(one.verdict, Verdict::kUndecided);
     EXPECT_EQ(one.standing, Standing::kNotDecidedHere);
     EXPECT_EQ(one.reason, "the gate's self-test gate was not confirmed");
-    EXPECT_TRUE(one.broken) << "on a quiet machine the gate has to work";
+    const bool tells_nothing = gate.series[0].seconds == wide.series[0].seconds;
+    EXPECT_EQ(one.broken, !tells_nothing) << "on a quiet machine the gate must not be wrong";
     const TimesState loaded{.reasons_against = {"load"}};
     EXPECT_FALSE(evaluation_of(kGate + kLinear, sweeps, loaded).broken);
   }
@@ -157,7 +159,7 @@ TEST(Evaluation, WithoutAGateThatTellsTiesFromDifferencesNoTimeIsJudged) {
   EXPECT_TRUE(without.broken) << "whoever takes the gate away silences nothing";
 }
 
-TEST(Evaluation, WideIntervalsBreakNothingOnALoadedMachine) {
+TEST(Evaluation, WideIntervalsBreakNothing) {
   std::vector<Sweep> noisy = sweeps_of_power(1);
   noisy[1] = synthetic_sweep(
       "plane_nm", SweepAxis::kPointPairs,
@@ -165,7 +167,11 @@ TEST(Evaluation, WideIntervalsBreakNothingOnALoadedMachine) {
   const std::string ratio = claim("{name: time_ratio, sweep: plane_nm, a: points, b: bqsa}",
                                   "{figure: last, is: within, from: 0.99, to: 1.01}");
   const TimesState loaded{.reasons_against = {"load average 7"}};
-  EXPECT_TRUE(evaluation_of(kGate + ratio, noisy).broken);
+  const Evaluation wide = evaluation_of(kGate + ratio, noisy);
+  EXPECT_EQ(wide.verdict, Verdict::kUndecided);
+  EXPECT_EQ(wide.standing, Standing::kNotDecidedHere);
+  EXPECT_EQ(wide.reason, "intervals reach across a bound; measure again, or longer");
+  EXPECT_FALSE(wide.broken);
   const Evaluation excused = evaluation_of(kGate + ratio, noisy, loaded);
   EXPECT_EQ(excused.standing, Standing::kNotDecidedHere);
   EXPECT_EQ(excused.reason, "times are only indicative: load average 7");
