@@ -55,7 +55,7 @@ HWY_INLINE void forward(const Arm& arm, const float* angles, EndPoints<2>& point
     if (arm.modified) {
       for (int k = 0; k < 2; ++k) p[k] = hn::MulAdd(a, x[k], p[k]);
     }
-    const V angle = hn::Add(hn::Load(d, angles + kBlock * j), hn::Set(d, row.offset));
+    const V angle = hn::Add(hn::LoadU(d, angles + kBlock * j), hn::Set(d, row.offset));
     const V c = hn::Cos(d, angle);
     const V s = hn::Sin(d, angle);
     const V x0 = hn::NegMulAdd(s, x[1], hn::Mul(c, x[0]));
@@ -89,7 +89,7 @@ HWY_INLINE void forward(const Arm& arm, const float* angles, EndPoints<3>& point
     const Arm::Row& row = arm.rows[j];
     const V ca = hn::Set(d, row.cos_alpha), sa = hn::Set(d, row.sin_alpha);
     const V along_x = hn::Set(d, row.a), along_z = hn::Set(d, row.d);
-    const V angle = hn::Add(hn::Load(d, angles + kBlock * j), hn::Set(d, row.offset));
+    const V angle = hn::Add(hn::LoadU(d, angles + kBlock * j), hn::Set(d, row.offset));
     const V c = hn::Cos(d, angle);
     const V s = hn::Sin(d, angle);
     for (int k = 0; k < 3; ++k) {
@@ -126,7 +126,7 @@ HWY_INLINE V in_range(const Arm& arm, const float* angles) {
   const V largest = hn::Set(d, arm.largest_angle);
   auto within = hn::Le(hn::Zero(d), largest);
   for (int j = 0; j < arm.joints; ++j) {
-    within = hn::And(within, hn::Le(hn::Abs(hn::Load(d, angles + kBlock * j)), largest));
+    within = hn::And(within, hn::Le(hn::Abs(hn::LoadU(d, angles + kBlock * j)), largest));
   }
   return hn::IfThenElseZero(within, hn::Set(d, -1.0F));
 }

@@ -16,7 +16,8 @@ constexpr float kInfinite = std::numeric_limits<float>::infinity();
 constexpr double kRounding = 0x1p-21;
 
 float rounded_down(double value) {
-  if (value > kLargest) return std::isinf(value) ? kInfinite : kLargest;
+  if (std::isinf(value) && value > 0) return kInfinite;
+  if (value > kLargest) return kLargest;
   if (value < -kLargest) return -kInfinite;
   const auto nearest = static_cast<float>(value);
   return nearest > value ? std::nextafter(nearest, -kInfinite) : nearest;
