@@ -13,7 +13,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// Chains x <- x / 2 + 1 / 2. Twelve hide the latency of the slowest multiply-add of today (4 cycles, two a
 /// cycle; where it takes two instructions, 8), and fit into the 16 registers of the smallest set.
 template <typename T>
-T MultiplyAdds(std::int64_t count) {
+T multiply_adds(std::int64_t count) {
   const hn::ScalableTag<T> d;
   using V = hn::Vec<decltype(d)>;
   constexpr std::int64_t kChains = 12;
@@ -42,10 +42,10 @@ T MultiplyAdds(std::int64_t count) {
   return hn::GetLane(hn::SumOfLanes(d, sum));
 }
 
-double Doubles(std::int64_t count) { return MultiplyAdds<double>(count); }
-float Floats(std::int64_t count) { return MultiplyAdds<float>(count); }
+double multiply_adds_of_doubles(std::int64_t count) { return multiply_adds<double>(count); }
+float multiply_adds_of_floats(std::int64_t count) { return multiply_adds<float>(count); }
 
-double ReadAll(const double* HWY_RESTRICT values, std::size_t count) {
+double read_numbers(const double* HWY_RESTRICT values, std::size_t count) {
   const hn::ScalableTag<double> d;
   const std::size_t lanes = hn::Lanes(d);
   auto a = hn::Zero(d), b = a, c = a, e = a;
@@ -65,16 +65,20 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace bqsa::harness {
 
-HWY_EXPORT(Doubles);
-HWY_EXPORT(Floats);
-HWY_EXPORT(ReadAll);
+HWY_EXPORT(multiply_adds_of_doubles);
+HWY_EXPORT(multiply_adds_of_floats);
+HWY_EXPORT(read_numbers);
 
-double make_multiply_adds(std::int64_t count) { return HWY_DYNAMIC_DISPATCH(Doubles)(count); }
+double make_multiply_adds(std::int64_t count) {
+  return HWY_DYNAMIC_DISPATCH(multiply_adds_of_doubles)(count);
+}
 
-float make_float_multiply_adds(std::int64_t count) { return HWY_DYNAMIC_DISPATCH(Floats)(count); }
+float make_float_multiply_adds(std::int64_t count) {
+  return HWY_DYNAMIC_DISPATCH(multiply_adds_of_floats)(count);
+}
 
 double read_all(const double* values, std::size_t count) {
-  return HWY_DYNAMIC_DISPATCH(ReadAll)(values, count);
+  return HWY_DYNAMIC_DISPATCH(read_numbers)(values, count);
 }
 
 }  // namespace bqsa::harness
