@@ -178,6 +178,7 @@ class Configurations {
     constexpr double kAway = 1.5 * kSpeedSize.links * kLinkLength;
     RandomStream random{kSeed};
     std::vector<Ellipsoid> shapes;
+    shapes.reserve(kSpeedSize.obstacles);
     for (int j = 0; j < kSpeedSize.obstacles; ++j) {
       shapes.emplace_back(kAway * random.direction(3), Eigen::Vector3d(0.1, 0.15, 0.2));
     }
