@@ -179,7 +179,7 @@ class Measuring(unittest.TestCase):
         self.assertEqual(self.self_test(lambda inject: 10000), 1)
 
     def test_the_self_test_fails_if_counts_do_not_repeat(self):
-        counts = iter([10000, 10002, 10500, 10000, 10000, 10500])
+        counts = iter([10000, 10020, 10500, 10000, 10000, 10500])
         self.assertEqual(self.self_test(lambda inject: next(counts)), 1)
 
 
