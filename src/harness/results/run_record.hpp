@@ -16,6 +16,13 @@
 
 namespace bqsa::harness {
 
+/// The place of a run in a campaign.
+struct CampaignPlace {
+  std::string campaign;  ///< its name
+  std::string key;       ///< PlannedRun::key
+  int repetition = 1;
+};
+
 /// What all runs of one call have in common.
 struct Circumstances {
   RunSettings settings;
@@ -24,6 +31,8 @@ struct Circumstances {
   RunLimits limits = {};    ///< of each run
   bool in_process = false;  ///< run in this process and without limits, for profiling
   std::vector<std::string> out_of_tree = {};  ///< methods that were added to the stock program
+  int jobs = 1;                               ///< runs side by side
+  std::optional<CampaignPlace> place = {};    ///< of a run of a campaign
 };
 
 /// Name of a method as it ran, in records, tables and file names: variant_name(), and what disturbed

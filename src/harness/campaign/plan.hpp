@@ -1,0 +1,63 @@
+/// @file
+/// The runs of a campaign, each with a key that changes with whatever its result may depend on.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "harness/campaign/campaign_file.hpp"
+
+namespace bqsa::harness {
+
+struct PlannedScenario {
+  std::filesystem::path file;
+  std::string name;    ///< no two of a plan have the same
+  std::string sha256;  ///< as Scenario::sha256
+};
+
+struct PlannedRun {
+  std::size_t scenario = 0;  ///< index into Plan::scenarios
+  std::size_t method = 0;    ///< index into Plan::methods
+  int repetition = 1;        ///< from 1
+  std::uint64_t seed = 0;    ///< run_seed()
+  std::string key;           ///< run_key()
+};
+
+struct Plan {
+  std::string campaign;  ///< its name
+  std::vector<PlannedScenario> scenarios;
+  std::vector<MethodSpec> methods;
+  std::vector<PlannedRun> runs;  ///< by scenario, then method, then repetition
+  RunSettings settings;          ///< of all runs, but for the seed
+  RunLimits limits;
+  KeptTrajectories trajectories = KeptTrajectories::kAll;
+};
+
+/// Seed of a run: 32 bits of SHA-256. Of a method that plans it depends on scenario, method,
+/// parameters and repetition; of one that answers tick by tick, where it is that of the noise, on
+/// scenario and repetition alone, so that all methods meet the same noise.
+std::uint64_t run_seed(std::uint64_t campaign_seed, const PlannedScenario& scenario,
+                       const MethodSpec& method, int repetition);
+
+/// What of the program a key depends on: version, commit, build type, flags, compiler and libraries;
+/// where the commit does not say what the program is (modified, unknown, methods out of tree), the SHA-256
+/// of the running executable too.
+std::string program_identity(const std::vector<std::string>& out_of_tree);
+
+/// Key of a run: 32 hexadecimal digits of the SHA-256 of the bytes of the scenario, method with all its
+/// parameters (of an external one its command and the files that the command names), repetition, seed,
+/// disturbance, limits, budget and program.
+std::string run_key(const PlannedScenario& scenario, const MethodSpec& method, int repetition,
+                    std::uint64_t seed, const RunSettings& settings, const RunLimits& limits,
+                    const std::string& program);
+
+/// Loads every scenario once, generates those that are to be generated into `<directory>/scenarios`,
+/// and lists all runs.
+/// @throws InputError for a scenario that cannot be used, two of one name, or a directory that cannot be
+///   written to
+Plan make_plan(const Campaign& campaign, const std::filesystem::path& directory,
+               const std::vector<std::string>& out_of_tree);
+
+}  // namespace bqsa::harness
