@@ -76,6 +76,12 @@ void write_all(int file, const std::string& bytes) {
   }
 }
 
+void let_all_signals_through() {
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+}
+
 /// Ends all that the run has started and left behind. Waiting for it adds its processor time to that
 /// of this process.
 void end_descendants() {
@@ -96,20 +102,22 @@ using Size = std::uint64_t;
   if (getppid() != parent) _exit(EXIT_FAILURE);  // it has died before the line above
   prctl(PR_SET_CHILD_SUBREAPER, 1);              // whatever the run starts stays below this process
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGCHLD}) std::signal(number, SIG_DFL);
+  let_all_signals_through();
   limit(RLIMIT_CORE, 0);
   if (limits_address_space) limit(RLIMIT_AS, address_space_of(getpid()) + limits.memory_bytes);
-  answer.read_end.close();
-  errors.read_end.close();
   const Descriptor nowhere(open("/dev/null", O_RDWR | O_CLOEXEC));
   dup2(nowhere.number(), STDIN_FILENO);
   dup2(nowhere.number(), STDOUT_FILENO);
   dup2(errors.write_end.number(), STDERR_FILENO);
+  constexpr int kAnswer = STDERR_FILENO + 1;
+  dup3(answer.write_end.number(), kAnswer, O_CLOEXEC);
+  close_range(kAnswer + 1, ~0U,
+              0);  // results and what else the harness has open are not for methods
 
   const std::string message = outcome_message(run());
   end_descendants();
   const Size size = message.size();
-  write_all(answer.write_end.number(),
-            std::string(reinterpret_cast<const char*>(&size), sizeof size) + message);
+  write_all(kAnswer, std::string(reinterpret_cast<const char*>(&size), sizeof size) + message);
   _exit(EXIT_SUCCESS);  // neither buffers nor destructors of the harness are this process' business
 }
 

@@ -1,11 +1,14 @@
 #include "harness/text_file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <fstream>
 #include <system_error>
+
+#include "harness/pipe.hpp"
 
 namespace bqsa::harness {
 namespace fs = std::filesystem;
@@ -43,7 +46,8 @@ std::string read_text_file(const fs::path& file, std::size_t max_bytes) {
   return content;
 }
 
-StagedTextFile::StagedTextFile(const fs::path& file, std::string_view content)
+StagedTextFile::StagedTextFile(const fs::path& file, std::string_view content,
+                               Durability durability)
     : file_(file), temporary_(file) {
   temporary_ += fmt::format(".{}.tmp", getpid());
   std::error_code unknown;
@@ -53,7 +57,10 @@ StagedTextFile::StagedTextFile(const fs::path& file, std::string_view content)
   std::ofstream stream(temporary_, std::ios::binary | std::ios::trunc);
   stream.write(content.data(), static_cast<std::streamsize>(content.size()));
   stream.close();
-  if (stream) return;
+  if (stream) {
+    if (durability == Durability::kMachine) sync_file(temporary_);
+    return;
+  }
   const std::error_code error(errno != 0 ? errno : EIO, std::generic_category());
   std::error_code ignored;
   fs::remove(temporary_, ignored);
@@ -74,6 +81,11 @@ void StagedTextFile::commit() {
 
 void write_text_file(const fs::path& file, std::string_view content) {
   StagedTextFile(file, content).commit();
+}
+
+void sync_file(const fs::path& file) {
+  const Descriptor opened(open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  fsync(opened.number());
 }
 
 std::string excerpt(std::string_view text) {

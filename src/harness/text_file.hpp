@@ -16,12 +16,16 @@ namespace bqsa::harness {
 ///   than `max_bytes`
 std::string read_text_file(const std::filesystem::path& file, std::size_t max_bytes);
 
+/// Whether what is written has to outlast the machine's end, or the program's only.
+enum class Durability { kProgram, kMachine };
+
 /// A file that is written but not yet in its place: a temporary file in the same directory, which
 /// commit() renames. Without commit() it is removed again.
 class StagedTextFile {
  public:
   /// @throws InputError naming `file` if it cannot be written
-  StagedTextFile(const std::filesystem::path& file, std::string_view content);
+  StagedTextFile(const std::filesystem::path& file, std::string_view content,
+                 Durability durability = Durability::kProgram);
   ~StagedTextFile();
   StagedTextFile(const StagedTextFile&) = delete;
   StagedTextFile& operator=(const StagedTextFile&) = delete;
@@ -38,6 +42,10 @@ class StagedTextFile {
 /// complete or not at all; an existing file is replaced.
 /// @throws InputError naming the file if it cannot be written
 void write_text_file(const std::filesystem::path& file, std::string_view content);
+
+/// Has the machine write what it may still hold back: a file, or what a directory lists. Not every file
+/// system can.
+void sync_file(const std::filesystem::path& file);
 
 /// What a message shows of text found in a file: at most 60 bytes, anything but printable ASCII
 /// as `\x07`.

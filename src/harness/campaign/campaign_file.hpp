@@ -10,6 +10,7 @@
 #include "harness/input_error.hpp"
 #include "harness/isolated_run.hpp"
 #include "harness/method_spec.hpp"
+#include "harness/results/run_record.hpp"
 
 namespace bqsa::harness {
 
@@ -19,9 +20,6 @@ struct GeneratedScenarios {
   std::uint64_t seed = 1;
   int count = 0;
 };
-
-/// Of which runs the trajectory is stored.
-enum class KeptTrajectories { kAll, kFailures, kNone };
 
 struct Campaign {
   std::filesystem::path file;

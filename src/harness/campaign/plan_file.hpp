@@ -2,6 +2,7 @@
 /// The plan of a campaign as it lies in its directory, `plan.jsonl`: what status, merge and export go by.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -9,6 +10,12 @@
 #include "harness/campaign/plan.hpp"
 
 namespace bqsa::harness {
+
+/// Relative to the directory of a campaign.
+inline constexpr const char* kPlanFile = "plan.jsonl";
+
+/// A plan that is larger is refused.
+inline constexpr std::size_t kMostPlanBytes = std::size_t{1} << 32U;
 
 /// One run of a stored plan.
 struct ListedRun {

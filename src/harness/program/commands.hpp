@@ -44,8 +44,9 @@ struct ReportOptions {
 };
 
 struct RunOptions {
-  std::vector<std::filesystem::path> scenarios;  ///< files, and directories of files `*.yaml`
-  std::vector<std::string> methods;              ///< `M[:key=value,...]`; none means all
+  std::vector<std::filesystem::path>
+      scenarios;                     ///< files, and directories of files `*.yaml`; or a campaign
+  std::vector<std::string> methods;  ///< `M[:key=value,...]`; none means all
   std::filesystem::path directory;
   bool strict = false;
   bool quiet = false;        ///< neither progress nor table
@@ -60,7 +61,43 @@ struct RunOptions {
   bool in_process = false;  ///< without a process of its own and without limits
   ReportOptions report;
   std::string command_line;  ///< as recorded
+
+  /// Of a campaign.
+  int jobs = 0;               ///< runs side by side; 0: as many as there are processors
+  std::string shard;          ///< `k/N`; empty: all of it
+  bool force = false;         ///< runs that are recorded already, too
+  bool shuffled = false;      ///< in random order
+  std::uint64_t shuffle = 1;  ///< seed of that
+
+  /// Options that were given and mean something without a campaign, or with one, only.
+  std::vector<std::string> not_for_campaigns;
+  std::vector<std::string> for_campaigns;
 };
+
+/// @throws InputError `<option>: is for <where>` if an option is given that is not for this
+void refuse_options(const std::vector<std::string>& given, const std::string& where);
+
+/// Runs what is missing of a campaign and prints the summary, or of a shard how many runs it did. A signal
+/// that ends a campaign ends the program likewise, after it has said how to go on.
+/// @throws InputError for a bad campaign, method or scenario, before anything runs, and when results cannot
+///   be written
+Status run_campaign_command(const std::vector<MethodEntry>& methods, const RunOptions& options,
+                            const Console& console);
+
+/// Prints how much of a campaign is recorded, what failed, what is stale or broken, who is at it.
+/// @throws InputError if the directory has no plan
+Status status_command(const std::filesystem::path& directory, const Console& console);
+
+/// Prints the numbers of the shards of which runs are missing, `1,4,7`, as sbatch --array takes them; an
+/// empty line if there are none.
+/// @throws InputError if the directory has no plan
+Status missing_command(int shards, const std::filesystem::path& directory, const Console& console);
+
+/// Puts the records of directories of one campaign, shards included, into one results directory, each
+/// run once, in the order of the plan. kRunFailed, and a list, if runs are missing.
+/// @throws InputError if there is no plan, the plans differ, or the results cannot be written
+Status merge_command(const std::vector<std::filesystem::path>& directories,
+                     const std::filesystem::path& out, const Console& console);
 
 /// Runs all methods on all scenarios and prints table or summary. A scenario that is refused does not stop
 /// the others; bad methods, equal scenario names and a directory that cannot be written to do,

@@ -35,6 +35,7 @@ struct CommandLine {
   std::vector<std::filesystem::path> files;
   std::string method_name;
   std::filesystem::path tree = ".";
+  int shards = 0;
   bool strict = false;
   bool quick = false;  ///< what measure does anyway
   std::function<Status(const Console&)> command;

@@ -9,6 +9,8 @@ constexpr int kMostGenerated = 100'000;  // the index in a name has five digits
 constexpr double kMostNoise = 1;         // [rad]
 constexpr int kMostSeeds = 10'000;
 constexpr double kMostSeconds = 1e6;
+constexpr int kMostJobs = 1024;
+constexpr int kMostShards = 100'000;
 constexpr int kMostMebibytes = 1 << 24;
 
 void add_external_option(CLI::App& command, std::vector<std::string>& externals) {
@@ -42,50 +44,120 @@ void declare_list(CLI::App& app, CommandLine& line) {
   });
 }
 
+/// What was given of some options.
+std::vector<std::string> given(const std::vector<CLI::Option*>& options) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : options) {
+    if (option->count() > 0) names.push_back(option->get_name());
+  }
+  return names;
+}
+
+/// Options that say what is run, and how: a campaign says it itself.
+std::vector<CLI::Option*> add_conditions(CLI::App& run, RunOptions& options) {
+  return {run.add_option(
+                 "--method,-m", options.methods,
+                 "Method with parameters, M[:key=value,...], as bqsa:increment=1e-3; see list;\n"
+                 "repeatable [all methods]")
+              ->allow_extra_args(false),
+          run.add_flag("!--no-trajectories", options.trajectories, "Do not store the trajectories"),
+          run.add_option(
+                 "--joint-noise", options.joint_noise,
+                 "Standard deviation of normal noise on the joint angles that reactive methods\n"
+                 "are told [rad] [none]")
+              ->check(CLI::Range(0.0, kMostNoise)),
+          run.add_flag("--latency", options.latency,
+                       "Tell reactive methods the joint angles of one tick ago"),
+          run.add_option("--seed", options.seed, "Seed of the noise and of planning methods [1]")
+              ->check(CLI::NonNegativeNumber),
+          run.add_option(
+                 "--seeds", options.seeds,
+                 "Run planning methods so many times, with --seed and the seeds that follow it [1]")
+              ->check(CLI::Range(1, kMostSeeds)),
+          run.add_option("--plan-budget", options.plan_budget,
+                         "Wall time that planning methods may use for a plan [s] [10]")
+              ->check(CLI::Range(1e-3, kMostSeconds)),
+          run.add_option("--time-limit", options.time_limit,
+                         "Wall time after which a run is stopped [s] [120]")
+              ->check(CLI::Range(1e-2, kMostSeconds)),
+          run.add_option("--memory-limit", options.memory_limit,
+                         "Memory that a run may have beyond the program's own [MiB] [4096]")
+              ->check(CLI::Range(1, kMostMebibytes)),
+          run.add_flag("--in-process", options.in_process,
+                       "Run methods in this process, without limits, for a profiler or debugger")};
+}
+
+std::vector<CLI::Option*> add_campaign_options(CLI::App& run, RunOptions& options) {
+  return {run.add_option("--jobs,-j", options.jobs,
+                         "Campaign: so many runs side by side, each on a processor of its own\n"
+                         "[as many as there are]")
+              ->check(CLI::Range(1, kMostJobs)),
+          run.add_option("--shard", options.shard,
+                         "Campaign: only part k of N, as 3/8 (docs/campaigns.md)"),
+          run.add_flag("--force", options.force, "Campaign: runs that are recorded, too"),
+          run.add_option("--shuffle", options.shuffle,
+                         "Campaign: in an order that is random by this seed")
+              ->check(CLI::NonNegativeNumber)};
+}
+
 void declare_run(CLI::App& app, CommandLine& line) {
   CLI::App* run = add_command(app, "run", "Run methods on scenarios, judge them, print the table");
   run->add_option("SCENARIO", line.run.scenarios,
-                  "Scenario files, or directories with files *.yaml")
+                  "Scenario files, or directories with files *.yaml; or a campaign, of which only\n"
+                  "what is missing in the results directory is run")
       ->required();
-  run->add_option("--method,-m", line.run.methods,
-                  "Method with parameters, M[:key=value,...], as bqsa:increment=1e-3; see list;\n"
-                  "repeatable [all methods]")
-      ->allow_extra_args(false);
-  add_external_option(*run, line.externals);
   run->add_option("--out,-o", line.run.directory,
                   "Results directory; runs are added to an existing one, and the last of a\n"
                   "scenario and method counts, in the table and as trajectory")
       ->required();
+  const std::vector<CLI::Option*> conditions = add_conditions(*run, line.run);
+  const std::vector<CLI::Option*> of_campaigns = add_campaign_options(*run, line.run);
+  add_external_option(*run, line.externals);
   run->add_flag("--strict", line.run.strict, "Exit with 1 if a run is not judged a success");
   run->add_flag("--quiet,-q", line.run.quiet, "Print neither progress nor table");
-  run->add_flag("!--no-trajectories", line.run.trajectories, "Do not store the trajectories");
-  run->add_option("--joint-noise", line.run.joint_noise,
-                  "Standard deviation of normal noise on the joint angles that reactive methods\n"
-                  "are told [rad] [none]")
-      ->check(CLI::Range(0.0, kMostNoise));
-  run->add_flag("--latency", line.run.latency,
-                "Tell reactive methods the joint angles of one tick ago");
-  run->add_option("--seed", line.run.seed, "Seed of the noise and of planning methods [1]")
-      ->check(CLI::NonNegativeNumber);
-  run->add_option(
-         "--seeds", line.run.seeds,
-         "Run planning methods so many times, with --seed and the seeds that follow it [1]")
-      ->check(CLI::Range(1, kMostSeeds));
-  run->add_option("--plan-budget", line.run.plan_budget,
-                  "Wall time that planning methods may use for a plan [s] [10]")
-      ->check(CLI::Range(1e-3, kMostSeconds));
-  run->add_option("--time-limit", line.run.time_limit,
-                  "Wall time after which a run is stopped [s] [120]")
-      ->check(CLI::Range(1e-2, kMostSeconds));
-  run->add_option("--memory-limit", line.run.memory_limit,
-                  "Memory that a run may have beyond the program's own [MiB] [4096]")
-      ->check(CLI::Range(1, kMostMebibytes));
-  run->add_flag("--in-process", line.run.in_process,
-                "Run methods in this process, without limits, for a profiler or debugger");
   add_report_options(*run, line.run.report);
-  run->callback([&line] {
+  run->callback([&line, conditions, of_campaigns] {
+    line.run.not_for_campaigns = given(conditions);
+    line.run.for_campaigns = given(of_campaigns);
+    line.run.shuffled = of_campaigns.back()->count() > 0;
     line.command = [&line](const Console& console) {
       return run_command(line.known(), line.run, console);
+    };
+  });
+}
+
+void declare_status(CLI::App& app, CommandLine& line) {
+  CLI::App* status = add_command(app, "status", "Print how much of a campaign is recorded");
+  status->add_option("DIR", line.results_directory, "Directory of a campaign")->required();
+  status->callback([&line] {
+    line.command = [&line](const Console& console) {
+      return status_command(line.results_directory, console);
+    };
+  });
+}
+
+void declare_missing(CLI::App& app, CommandLine& line) {
+  CLI::App* missing =
+      add_command(app, "missing", "Print the shards of a campaign of which runs are missing");
+  missing->add_option("N", line.shards, "Number of shards")
+      ->required()
+      ->check(CLI::Range(1, kMostShards));
+  missing->add_option("DIR", line.results_directory, "Directory of a campaign")->required();
+  missing->callback([&line] {
+    line.command = [&line](const Console& console) {
+      return missing_command(line.shards, line.results_directory, console);
+    };
+  });
+}
+
+void declare_merge(CLI::App& app, CommandLine& line) {
+  CLI::App* merge = add_command(app, "merge", "Put the shards of a campaign together");
+  merge->add_option("DIR", line.files, "Directories of one campaign")->required();
+  merge->add_option("--out,-o", line.results_directory, "Results directory; may be one of them")
+      ->required();
+  merge->callback([&line] {
+    line.command = [&line](const Console& console) {
+      return merge_command(line.files, line.results_directory, console);
     };
   });
 }
@@ -218,6 +290,9 @@ void declare_validate(CLI::App& app, CommandLine& line) {
 void declare_run_commands(CLI::App& app, CommandLine& line) {
   declare_list(app, line);
   declare_run(app, line);
+  declare_status(app, line);
+  declare_missing(app, line);
+  declare_merge(app, line);
   declare_show(app, line);
   declare_step(app, line);
   declare_conform(app, line);

@@ -1,15 +1,17 @@
 #include <fmt/core.h>
 
-#include <chrono>
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <ostream>
 #include <set>
 #include <system_error>
 
+#include "harness/campaign/campaign_file.hpp"
 #include "harness/methods.hpp"
 #include "harness/program/commands.hpp"
 #include "harness/program/external_methods.hpp"
+#include "harness/program/progress.hpp"
 #include "harness/program/report.hpp"
 #include "harness/program/scenario_files.hpp"
 #include "harness/results/pair_run.hpp"
@@ -72,49 +74,6 @@ std::vector<std::filesystem::path> usable(const std::vector<std::filesystem::pat
   return good;
 }
 
-std::string duration_text(double seconds) {
-  constexpr double kMinute = 60;
-  constexpr double kHour = 3600;
-  if (seconds < 2 * kMinute) return fmt::format("{:.0f} s", seconds);
-  if (seconds < 2 * kHour) return fmt::format("{:.0f} min", seconds / kMinute);
-  return fmt::format("{:.1f} h", seconds / kHour);
-}
-
-/// One line on the terminal that is written over again and again.
-class Progress {
- public:
-  Progress(const Console& console, bool shown, std::size_t total)
-      : err_(console.err), shown_(shown && console.terminal), total_(total) {}
-  ~Progress() { overwrite(""); }
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-
-  void next(const std::string& what) {
-    const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
-    std::string pace;
-    if (done_ > 0 && seconds > 1) {
-      const double rate = static_cast<double>(done_) / seconds;
-      pace = fmt::format(", {:.3g} runs/s, {} left", rate,
-                         duration_text(static_cast<double>(total_ - done_) / rate));
-    }
-    overwrite(fmt::format("[{}/{}] {}{}", ++done_, total_, what, pace));
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-
-  void overwrite(const std::string& text) {
-    constexpr const char* kClearLine = "\r\033[K";
-    if (shown_) err_ << kClearLine << text << std::flush;
-  }
-
-  std::ostream& err_;
-  bool shown_;
-  std::size_t total_;
-  std::size_t done_ = 0;
-  Clock::time_point start_ = Clock::now();
-};
-
 Circumstances circumstances_of(const RunOptions& options) {
   if (!std::isfinite(options.joint_noise)) {
     throw InputError("--joint-noise: expected a standard deviation [rad], got no finite number");
@@ -124,7 +83,7 @@ Circumstances circumstances_of(const RunOptions& options) {
                        .disturbance = {.joint_noise = options.joint_noise,
                                        .latency_ticks = options.latency ? 1 : 0}},
           .command_line = options.command_line,
-          .store_trajectories = options.trajectories,
+          .trajectories = options.trajectories ? KeptTrajectories::kAll : KeptTrajectories::kNone,
           .limits = {.wall_s = options.time_limit,
                      .memory_bytes = static_cast<std::uint64_t>(options.memory_limit) << 20U},
           .in_process = options.in_process};
@@ -137,12 +96,20 @@ std::uint64_t seeds_of(const MethodSpec& spec, const RunOptions& options) {
 
 }  // namespace
 
+void refuse_options(const std::vector<std::string>& given, const std::string& where) {
+  if (!given.empty()) throw InputError(fmt::format("{}: is for {}", given.front(), where));
+}
+
 void Console::error(std::string_view message) const {
   err << "bqsa-bench: error: " << message << std::endl;
 }
 
 Status run_command(const std::vector<MethodEntry>& methods, const RunOptions& options,
                    const Console& console) {
+  if (std::any_of(options.scenarios.begin(), options.scenarios.end(), is_campaign_file)) {
+    return run_campaign_command(methods, options, console);
+  }
+  refuse_options(options.for_campaigns, "a campaign, and there is none among the scenarios");
   if (options.directory.empty()) throw InputError("--out: expected a directory, got nothing");
   const std::vector<MethodSpec> specs = chosen_methods(methods, options.methods);
   Circumstances circumstances = circumstances_of(options);
@@ -174,11 +141,12 @@ Status run_command(const std::vector<MethodEntry>& methods, const RunOptions& op
   {
     // Scenarios are loaded one at a time: thousands of them do not have to fit into memory.
     std::size_t runs = 0;
+    std::size_t done = 0;
     for (const MethodSpec& spec : specs) runs += files.size() * seeds_of(spec, options);
     Progress progress(console, !options.quiet, runs);
     const auto run_one = [&](const Scenario& scenario, const Judge& judge, const MethodSpec& spec,
                              std::uint64_t seed) {
-      progress.next(scenario.problem.name + " " + variant_name(spec));
+      progress.show(done++, scenario.problem.name + " " + variant_name(spec));
       Circumstances seeded = circumstances;
       seeded.settings.seed = seed;
       const StoredRun run = run_pair(scenario, judge, spec, seeded, store);

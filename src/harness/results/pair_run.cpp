@@ -31,6 +31,11 @@ void add_conduct(const RunOutcome& outcome, Judgement& judgement) {
   std::sort(failures.begin(), failures.end());
 }
 
+bool is_kept(KeptTrajectories kept, const Judgement& judgement) {
+  return kept == KeptTrajectories::kAll ||
+         (kept == KeptTrajectories::kFailures && !judgement.success());
+}
+
 RunOutcome run_outcome(const Problem& problem, const MethodSpec& method,
                        const Circumstances& circumstances) {
   const RunSettings& settings = circumstances.settings;
@@ -42,34 +47,40 @@ RunOutcome run_outcome(const Problem& problem, const MethodSpec& method,
 
 }  // namespace
 
-StoredRun run_pair(const Scenario& scenario, const Judge& judge, const MethodSpec& method,
-                   const Circumstances& circumstances, ResultStore& store) {
+JudgedRun judged_run(const Scenario& scenario, const Judge& judge, const MethodSpec& method,
+                     const Circumstances& circumstances, const std::filesystem::path& directory) {
   const Problem& problem = scenario.problem;
   const MachineState machine = machine_state();
   const std::string why_not = why_not_run(problem, method, circumstances.settings.disturbance);
-  StoredRun run;
-  std::unique_ptr<StagedTextFile> staged;
-  if (why_not.empty()) {
-    const RunOutcome outcome = run_outcome(problem, method, circumstances);
-    Judgement judgement = judge.judge(outcome.trajectory);
-    add_conduct(outcome, judgement);
-    const std::string file =
-        ResultStore::trajectory_file(problem.name, run_name(method, circumstances.settings));
-    try {
-      if (circumstances.store_trajectories) {
-        staged = store.stage_trajectory(file, outcome.trajectory);
-      }
-    } catch (const InputError& error) {
-      run.trajectory_error = error.what();
-    }
-    run.record = run_record(scenario, method, outcome, diagnosis_of(problem, outcome), judgement,
-                            machine, circumstances, staged ? file : "");
-  } else {
+  JudgedRun run;
+  if (!why_not.empty()) {
     run.record = not_applicable_record(scenario, method, why_not, machine, circumstances);
+    return run;
   }
-  store.append(run.record);
-  if (staged) staged->commit();
+  const RunOutcome outcome = run_outcome(problem, method, circumstances);
+  Judgement judgement = judge.judge(outcome.trajectory);
+  add_conduct(outcome, judgement);
+  const std::string file = trajectory_file(problem.name, run_name(method, circumstances.settings));
+  try {
+    if (is_kept(circumstances.trajectories, judgement)) {
+      run.trajectory =
+          stage_trajectory(directory, file, outcome.trajectory, circumstances.durability);
+    }
+  } catch (const InputError& error) {
+    run.trajectory_error = error.what();
+  }
+  run.claim = outcome.claim;
+  run.record = run_record(scenario, method, outcome, diagnosis_of(problem, outcome), judgement,
+                          machine, circumstances, run.trajectory ? file : "");
   return run;
+}
+
+StoredRun run_pair(const Scenario& scenario, const Judge& judge, const MethodSpec& method,
+                   const Circumstances& circumstances, ResultStore& store) {
+  const JudgedRun run = judged_run(scenario, judge, method, circumstances, store.directory());
+  store.append(run.record);
+  if (run.trajectory) run.trajectory->commit();
+  return {run.record, run.trajectory_error};
 }
 
 }  // namespace bqsa::harness

@@ -48,20 +48,24 @@ bool ends_with_line_break(int file) {
 }  // namespace
 
 std::filesystem::path runs_file(const std::filesystem::path& directory) {
-  return directory / "runs.jsonl";
+  return directory / kRunsFile;
 }
 
-ResultStore::ResultStore(const std::filesystem::path& directory) : directory_(directory) {
+ResultStore::ResultStore(const std::filesystem::path& directory,
+                         const std::filesystem::path& records, Durability durability)
+    : directory_(directory), records_(directory / records), durability_(durability) {
   make_writable_directory(directory_);
+  make_writable_directory(records_.parent_path());
   make_writable_directory(directory_ / kTrajectories);
-  const std::filesystem::path runs = runs_file(directory_);
   constexpr mode_t kReadableByAll = 0644;
-  file_ = open(runs.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK, kReadableByAll);
-  if (file_ < 0) refuse(runs, errno);
+  file_ =
+      open(records_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK, kReadableByAll);
+  if (file_ < 0) refuse(records_, errno);
   if (!is_regular(file_)) {
     close(file_);
-    throw InputError(fmt::format("{}: cannot write: not a regular file", runs.string()));
+    throw InputError(fmt::format("{}: cannot write: not a regular file", records_.string()));
   }
+  if (durability_ == Durability::kMachine) sync_file(records_.parent_path());
   if (!ends_with_line_break(file_)) append("");
 }
 
@@ -69,27 +73,32 @@ ResultStore::~ResultStore() {
   if (file_ >= 0) close(file_);
 }
 
-std::string ResultStore::trajectory_file(const std::string& scenario, const std::string& variant) {
-  return (std::filesystem::path(kTrajectories) / scenario / (variant + ".csv")).string();
-}
-
-std::unique_ptr<StagedTextFile> ResultStore::stage_trajectory(const std::string& file,
-                                                              const Trajectory& trajectory) const {
-  const std::filesystem::path place = directory_ / file;
-  make_writable_directory(place.parent_path());
-  return std::make_unique<StagedTextFile>(place, trajectory_text(trajectory));
-}
-
 void ResultStore::append(std::string_view record) {
   const std::string line = std::string(record) + '\n';
   const off_t before = size_of(file_);
   const ssize_t written = write(file_, line.data(), line.size());
-  if (written < 0) refuse(runs_file(directory_), errno);
-  if (static_cast<std::size_t>(written) == line.size()) return;
+  if (written < 0) refuse(records_, errno);
+  if (static_cast<std::size_t>(written) == line.size()) {
+    if (durability_ == Durability::kMachine && fdatasync(file_) != 0) refuse(records_, errno);
+    return;
+  }
   // Not if someone else has appended meanwhile: then the piece stays, and `show` reports it.
   const bool mine = size_of(file_) == before + written;
   if (!mine || ftruncate(file_, before) != 0) append("");
-  refuse(runs_file(directory_), ENOSPC);
+  refuse(records_, ENOSPC);
+}
+
+std::string trajectory_file(const std::string& scenario, const std::string& run) {
+  return (std::filesystem::path(kTrajectories) / scenario / (run + ".csv")).string();
+}
+
+std::unique_ptr<StagedTextFile> stage_trajectory(const std::filesystem::path& directory,
+                                                 const std::string& file,
+                                                 const Trajectory& trajectory,
+                                                 Durability durability) {
+  const std::filesystem::path place = directory / file;
+  make_writable_directory(place.parent_path());
+  return std::make_unique<StagedTextFile>(place, trajectory_text(trajectory), durability);
 }
 
 std::vector<StoredLine> read_lines(const std::filesystem::path& file) {

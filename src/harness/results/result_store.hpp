@@ -14,25 +14,23 @@
 
 namespace bqsa::harness {
 
+inline constexpr const char* kRunsFile = "runs.jsonl";
+
 /// Adds runs to a results directory. Lines are only ever appended.
 class ResultStore {
  public:
-  /// Makes the directory if needed and makes sure that it can be written to. A last line of
-  /// `runs.jsonl` that was cut short is closed, so that new lines stand on their own.
+  /// Makes the directory if needed and makes sure that it can be written to. A last line that was cut
+  /// short is closed, so that new lines stand on their own.
+  /// @param records  file of the records, relative to the directory, as are all files
   /// @throws InputError if it cannot be written to
-  explicit ResultStore(const std::filesystem::path& directory);
+  explicit ResultStore(const std::filesystem::path& directory,
+                       const std::filesystem::path& records = kRunsFile,
+                       Durability durability = Durability::kProgram);
   ~ResultStore();
   ResultStore(const ResultStore&) = delete;
   ResultStore& operator=(const ResultStore&) = delete;
 
-  /// Path `trajectories/<scenario>/<variant>.csv` of a trajectory, relative to the directory.
-  static std::string trajectory_file(const std::string& scenario, const std::string& variant);
-
-  /// Writes a trajectory, but leaves an older one in its place until commit().
-  /// @param file  trajectory_file()
-  /// @throws InputError if it cannot be written
-  std::unique_ptr<StagedTextFile> stage_trajectory(const std::string& file,
-                                                   const Trajectory& trajectory) const;
+  const std::filesystem::path& directory() const { return directory_; }
 
   /// Appends a record with one system call, so that whatever ends the program leaves whole lines;
   /// what was written of a record that does not fit is taken back.
@@ -41,8 +39,21 @@ class ResultStore {
 
  private:
   std::filesystem::path directory_;
+  std::filesystem::path records_;
+  Durability durability_;
   int file_ = -1;
 };
+
+/// Path `trajectories/<scenario>/<run>.csv` of a trajectory, relative to the directory.
+std::string trajectory_file(const std::string& scenario, const std::string& run);
+
+/// Writes a trajectory, but leaves an older one in its place until it is committed.
+/// @param file  trajectory_file()
+/// @throws InputError if it cannot be written
+std::unique_ptr<StagedTextFile> stage_trajectory(const std::filesystem::path& directory,
+                                                 const std::string& file,
+                                                 const Trajectory& trajectory,
+                                                 Durability durability = Durability::kProgram);
 
 /// One line of `runs.jsonl`.
 struct StoredLine {

@@ -13,8 +13,12 @@
 #include "harness/results/provenance.hpp"
 #include "harness/runner.hpp"
 #include "harness/scenario/scenario.hpp"
+#include "harness/text_file.hpp"
 
 namespace bqsa::harness {
+
+/// Of which runs the trajectory is stored.
+enum class KeptTrajectories { kAll, kFailures, kNone };
 
 /// The place of a run in a campaign.
 struct CampaignPlace {
@@ -27,12 +31,13 @@ struct CampaignPlace {
 struct Circumstances {
   RunSettings settings;
   std::string command_line;
-  bool store_trajectories = true;
+  KeptTrajectories trajectories = KeptTrajectories::kAll;
   RunLimits limits = {};    ///< of each run
   bool in_process = false;  ///< run in this process and without limits, for profiling
-  std::vector<std::string> out_of_tree = {};  ///< methods that were added to the stock program
-  int jobs = 1;                               ///< runs side by side
-  std::optional<CampaignPlace> place = {};    ///< of a run of a campaign
+  std::vector<std::string> out_of_tree = {};     ///< methods that were added to the stock program
+  int jobs = 1;                                  ///< runs side by side
+  std::optional<CampaignPlace> place = {};       ///< of a run of a campaign
+  Durability durability = Durability::kProgram;  ///< of trajectories
 };
 
 /// Name of a method as it ran, in records, tables and file names: variant_name(), and what disturbed

@@ -242,7 +242,8 @@ TEST_F(PairRun, ATrajectoryWaitsForItsRecord) {
   const std::filesystem::path file = directory_.path() / "trajectories/planar_7r/still.csv";
   ResultStore store(directory_.path());
   {
-    const auto staged = store.stage_trajectory(store.trajectory_file("planar_7r", "still"), {});
+    const auto staged =
+        stage_trajectory(directory_.path(), trajectory_file("planar_7r", "still"), {});
     EXPECT_EQ(read_trajectory(file, 7).q.size(), 401u) << "replaced before the record";
   }
   const std::filesystem::directory_iterator files(file.parent_path());
@@ -345,7 +346,7 @@ TEST_F(PairRun, WithoutTrajectoriesOlderOnesStay) {
   const std::filesystem::path file = directory_.path() / "trajectories/planar_7r/still.csv";
   const auto written = std::filesystem::last_write_time(file);
   ResultStore store(directory_.path());
-  const Circumstances bare{.settings = {}, .command_line = "test", .store_trajectories = false};
+  const Circumstances bare{.settings = {}, .command_line = "test", .trajectories = KeptTrajectories::kNone};
   for (const char* name : {"still", "other"}) {
     const StoredRun stored = run_pair(scenario_, judge_, scripted(name, stand_still), bare, store);
     EXPECT_TRUE(Json::parse(stored.record)["trajectory"].is_null());

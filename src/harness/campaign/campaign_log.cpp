@@ -1,0 +1,199 @@
+#include "harness/campaign/campaign_log.hpp"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <system_error>
+#include <utility>
+
+#include "harness/results/record_value.hpp"
+
+namespace bqsa::harness {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kShards = "shards";
+
+std::string name_of(const Shard& shard) {
+  return fmt::format("{}-of-{}", shard.number, shard.count);
+}
+
+/// Fills in what the text of a line says.
+/// @throws InputError if it is no record
+void read_record(RecordLine& line) {
+  const nlohmann::json record = nlohmann::json::parse(line.text, nullptr, false);
+  if (record.is_discarded()) throw InputError("not a whole line of JSON");
+  const RecordValue value(record);
+  if (value["schema"].text() != "bqsa-run/1") value["schema"].refuse("expected bqsa-run/1");
+  const bool in_campaign = value.has("campaign") && !value["campaign"].is_null();
+  line.key = in_campaign ? value["campaign"]["key"].text() : "";
+  line.applicable = !value["judged"].is_null();
+  line.success = line.applicable && value["judged"]["success"].boolean();
+}
+
+std::vector<fs::path> sorted_files(const fs::path& directory, std::string_view end) {
+  std::vector<fs::path> files;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(directory, none)) {
+    const std::string name = entry.path().filename().string();
+    if (name.ends_with(end)) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// A shard that was complete by a former plan is taken up again.
+fs::path taken_up(const fs::path& directory, const Shard& shard) {
+  if (shard.is_whole()) return kRunsFile;
+  std::error_code error;
+  const fs::path partial = partial_file(shard);
+  if (!fs::exists(directory / partial, error) && fs::exists(directory / complete_file(shard))) {
+    fs::rename(directory / complete_file(shard), directory / partial);
+  }
+  return partial;
+}
+
+std::vector<FileLock> locked(const fs::path& directory, const Shard& shard) {
+  std::error_code error;
+  fs::create_directories(shard.is_whole() ? directory : directory / kShards, error);
+  std::vector<FileLock> locks;
+  locks.emplace_back(directory / kLockFile,
+                     shard.is_whole() ? FileLock::Kind::kExclusive : FileLock::Kind::kShared);
+  if (!shard.is_whole()) {
+    locks.emplace_back(directory / kShards / (name_of(shard) + ".lock"),
+                       FileLock::Kind::kExclusive);
+  }
+  return locks;
+}
+
+/// Trajectories that were being written when their process was killed. Nobody else must be at work.
+void remove_left_over(const fs::path& directory) {
+  std::error_code none;
+  for (const auto& entry : fs::recursive_directory_iterator(directory / "trajectories", none)) {
+    if (entry.path().extension() == ".tmp") fs::remove(entry.path(), none);
+  }
+}
+
+}  // namespace
+
+Shard parse_shard(std::string_view text) {
+  constexpr int kMostShards = 100'000;
+  const auto whole_number = [&](std::string_view word) {
+    int value = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    return error == std::errc() && end == word.data() + word.size() ? value : 0;
+  };
+  const std::size_t slash = text.find('/');
+  Shard shard{0, 0};
+  if (slash != std::string_view::npos) {
+    shard = {whole_number(text.substr(0, slash)), whole_number(text.substr(slash + 1))};
+  }
+  if (shard.number < 1 || shard.number > shard.count || shard.count > kMostShards) {
+    throw InputError(fmt::format("--shard: expected k/N, k from 1 to N and N at most {}, got {}",
+                                 kMostShards, excerpt(text)));
+  }
+  return shard;
+}
+
+fs::path partial_file(const Shard& shard) {
+  return fs::path(kShards) / (name_of(shard) + ".part.jsonl");
+}
+
+fs::path complete_file(const Shard& shard) {
+  return fs::path(kShards) / (name_of(shard) + ".jsonl");
+}
+
+std::vector<fs::path> record_files(const fs::path& directory) {
+  std::vector<fs::path> files;
+  std::error_code none;
+  if (fs::exists(runs_file(directory), none)) files.push_back(runs_file(directory));
+  const std::vector<fs::path> shards = sorted_files(directory / kShards, ".jsonl");
+  const auto is_partial = [](const fs::path& file) {
+    return file.filename().string().ends_with(".part.jsonl");
+  };
+  std::remove_copy_if(shards.begin(), shards.end(), std::back_inserter(files), is_partial);
+  std::copy_if(shards.begin(), shards.end(), std::back_inserter(files), is_partial);
+  return files;
+}
+
+std::vector<BadLine> for_each_record(const fs::path& directory,
+                                     const std::function<void(const RecordLine&)>& visit) {
+  std::vector<BadLine> bad;
+  for (const fs::path& file : record_files(directory)) {
+    std::ifstream in(file, std::ios::binary);
+    RecordLine line;
+    line.file = file;
+    std::uint64_t next = 0;
+    for (int number = 1; std::getline(in, line.text); ++number) {
+      line.offset = std::exchange(next, next + line.text.size() + 1);
+      if (line.text.empty()) continue;
+      try {
+        read_record(line);
+      } catch (const InputError& error) {
+        bad.push_back({file, number, error.what()});
+        continue;
+      }
+      visit(line);
+    }
+  }
+  return bad;
+}
+
+FileLock::FileLock(const fs::path& file, Kind kind) {
+  constexpr mode_t kReadWrite = 0644;
+  file_ = Descriptor(open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kReadWrite));
+  if (file_.number() < 0) {
+    throw InputError(
+        fmt::format("{}: cannot write: {}", file.string(), std::generic_category().message(errno)));
+  }
+  struct flock lock {};
+  lock.l_type = kind == Kind::kShared ? F_RDLCK : F_WRLCK;
+  lock.l_whence = SEEK_SET;
+  if (fcntl(file_.number(), F_SETLK, &lock) == 0) return;
+  const int error = errno;
+  if (error != EACCES && error != EAGAIN) {
+    throw InputError(
+        fmt::format("{}: cannot lock: {}", file.string(), std::generic_category().message(error)));
+  }
+  const int holder = FileLock::holder(file);
+  throw InputError(fmt::format("{}: expected to be the only one here, but {} is at work",
+                               file.parent_path().string(),
+                               holder > 0 ? fmt::format("process {}", holder) : "another process"));
+}
+
+int FileLock::holder(const fs::path& file) {
+  const Descriptor opened(open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  struct flock lock {};
+  lock.l_type = F_RDLCK;
+  lock.l_whence = SEEK_SET;
+  if (opened.number() < 0 || fcntl(opened.number(), F_GETLK, &lock) != 0) return 0;
+  return lock.l_type == F_WRLCK ? std::max(static_cast<int>(lock.l_pid), 0) : 0;
+}
+
+CampaignLog::CampaignLog(const fs::path& directory, const Shard& shard)
+    : directory_(directory),
+      shard_(shard),
+      locks_(locked(directory, shard)),
+      store_(directory, taken_up(directory, shard), Durability::kMachine) {
+  bad_lines_ =
+      for_each_record(directory, [&](const RecordLine& record) { keys_.insert(record.key); });
+  if (shard.is_whole()) remove_left_over(directory);
+}
+
+void CampaignLog::complete() {
+  if (shard_.is_whole()) return;
+  std::error_code error;
+  fs::rename(directory_ / partial_file(shard_), directory_ / complete_file(shard_), error);
+  if (error) {
+    throw InputError(fmt::format("{}: cannot rename: {}",
+                                 (directory_ / partial_file(shard_)).string(), error.message()));
+  }
+}
+
+}  // namespace bqsa::harness

@@ -1,0 +1,114 @@
+/// @file
+/// The records of a campaign's directory: which are there, and one process that adds to them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <unordered_set>
+#include <vector>
+
+#include "harness/pipe.hpp"
+#include "harness/results/result_store.hpp"
+
+namespace bqsa::harness {
+
+/// Of a directory, relative to it: whoever adds records has it.
+inline constexpr const char* kLockFile = "lock";
+
+/// One of so many equal parts of a campaign, see shard_of().
+struct Shard {
+  int number = 1;  ///< from 1
+  int count = 1;   ///< 1: the whole campaign
+
+  bool is_whole() const { return count == 1; }
+};
+
+/// Number of the shard of so many that has a run.
+/// @param run  index into the plan
+inline int shard_of(std::size_t run, int count) {
+  return static_cast<int>(run % static_cast<std::size_t>(count)) + 1;
+}
+
+/// Reads `k/N`.
+/// @throws InputError unless 1 <= k <= N <= 100,000
+Shard parse_shard(std::string_view text);
+
+/// Files of a shard's records, relative to the campaign's directory: under way, and complete.
+std::filesystem::path partial_file(const Shard& shard);
+std::filesystem::path complete_file(const Shard& shard);
+
+/// All files of records of a directory that are there, `runs.jsonl` first, then complete shards, then
+/// others, each by name.
+std::vector<std::filesystem::path> record_files(const std::filesystem::path& directory);
+
+/// A line that is no record of a campaign.
+struct BadLine {
+  std::filesystem::path file;
+  int number = 0;
+  std::string why;
+};
+
+/// A record, as far as it matters to a campaign.
+struct RecordLine {
+  std::filesystem::path file;
+  std::uint64_t offset = 0;  ///< of the line in the file [byte]
+  std::string text;
+  std::string key;  ///< empty for a run of no campaign
+  bool applicable = true;
+  bool success = false;
+};
+
+/// Goes through all records of a directory, in the order of record_files(), of which lines may be cut short.
+/// @return the lines that are not records
+std::vector<BadLine> for_each_record(const std::filesystem::path& directory,
+                                     const std::function<void(const RecordLine&)>& visit);
+
+/// A lock of the kernel's on a file, held by this process and gone with it, whatever ends it.
+class FileLock {
+ public:
+  enum class Kind { kShared, kExclusive };
+
+  /// @throws InputError if another process has it, naming it, or the file cannot be written
+  FileLock(const std::filesystem::path& file, Kind kind);
+
+  /// Process that has an exclusive lock on a file; 0 if there is none, or it is on another machine.
+  static int holder(const std::filesystem::path& file);
+
+ private:
+  Descriptor file_;
+};
+
+/// Adds the records of a shard, or of a whole campaign, durably. Keeps every other process from doing the
+/// same.
+class CampaignLog {
+ public:
+  /// Makes the directory if needed; takes up what was left of the shard.
+  /// @throws InputError if another process is at it, or it cannot be written to
+  CampaignLog(const std::filesystem::path& directory, const Shard& shard);
+
+  /// Whether the run of this key is recorded, in whichever file.
+  bool has(const std::string& key) const { return keys_.contains(key); }
+
+  const std::vector<BadLine>& bad_lines() const { return bad_lines_; }
+
+  /// @throws InputError if it cannot be written
+  void append(std::string_view record) { store_.append(record); }
+
+  /// All runs are recorded: a shard's file takes the name of one that is complete.
+  /// @throws InputError if it cannot
+  void complete();
+
+ private:
+  std::filesystem::path directory_;
+  Shard shard_;
+  std::vector<FileLock> locks_;
+  ResultStore store_;
+  std::unordered_set<std::string> keys_;
+  std::vector<BadLine> bad_lines_;
+};
+
+}  // namespace bqsa::harness

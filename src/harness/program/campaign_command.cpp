@@ -1,0 +1,116 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <ostream>
+
+#include "harness/campaign/campaign_log.hpp"
+#include "harness/campaign/run_campaign.hpp"
+#include "harness/campaign/stop_signals.hpp"
+#include "harness/campaign/worker_pool.hpp"
+#include "harness/methods.hpp"
+#include "harness/program/commands.hpp"
+#include "harness/program/progress.hpp"
+#include "harness/program/report.hpp"
+
+namespace bqsa::harness {
+namespace {
+
+/// Tells the user how a campaign goes.
+class Reporter : public CampaignWatcher {
+ public:
+  Reporter(const Console& console, const CampaignOptions& options, bool quiet)
+      : console_(console), options_(options), quiet_(quiet) {}
+
+  void begins(const CampaignOutcome& outcome) override {
+    const std::size_t to_do = options_.force ? outcome.planned : outcome.planned - outcome.recorded;
+    if (!quiet_) {
+      console_.err << fmt::format("{}{} runs planned, {} recorded, {} to do by {} process{}\n",
+                                  shard_text(), outcome.planned, outcome.recorded, to_do,
+                                  options_.jobs, options_.jobs == 1 ? "" : "es");
+    }
+    progress_.emplace(console_, !quiet_, to_do, true);
+  }
+
+  void has_done(const CampaignOutcome& outcome, const TableRow& run) override {
+    progress_->show(outcome.done, fmt::format("{} failed, {} lost; {} {}", outcome.failed,
+                                              outcome.lost, run.scenario, run.variant));
+  }
+
+  void has_lost(const PlannedRun& run, const std::string& why) override {
+    console_.error(fmt::format("run {} is lost: {}", run.key, why));
+  }
+
+  void has_found(const BadLine& line) override {
+    console_.error(fmt::format("{}:{}: {}", line.file.string(), line.number, line.why));
+  }
+
+  void end() { progress_.reset(); }
+
+ private:
+  std::string shard_text() const {
+    if (options_.shard.is_whole()) return "";
+    return fmt::format("shard {} of {}: ", options_.shard.number, options_.shard.count);
+  }
+
+  const Console& console_;
+  const CampaignOptions& options_;
+  bool quiet_;
+  std::optional<Progress> progress_;
+};
+
+std::vector<TableRow> rows_of(const std::filesystem::path& directory, const Plan& plan) {
+  std::unordered_set<std::string> planned;
+  for (const PlannedRun& run : plan.runs) planned.insert(run.key);
+  std::vector<TableRow> rows;
+  for_each_record(directory, [&](const RecordLine& line) {
+    if (planned.contains(line.key)) rows.push_back(parse_run_record(line.text));
+  });
+  return rows;
+}
+
+CampaignOptions options_of(const RunOptions& options, const std::vector<MethodEntry>& methods) {
+  return {.jobs = options.jobs > 0 ? options.jobs
+                                   : std::max(static_cast<int>(usable_processors().size()), 1),
+          .shard = options.shard.empty() ? Shard{} : parse_shard(options.shard),
+          .force = options.force,
+          .shuffle = options.shuffled ? std::optional(options.shuffle) : std::nullopt,
+          .command_line = options.command_line,
+          .out_of_tree = names_out_of_tree(methods)};
+}
+
+}  // namespace
+
+Status run_campaign_command(const std::vector<MethodEntry>& methods, const RunOptions& options,
+                            const Console& console) {
+  if (options.scenarios.size() != 1) {
+    throw InputError(fmt::format("expected one campaign or scenarios, got a campaign and {} more",
+                                 options.scenarios.size() - 1));
+  }
+  refuse_options(options.not_for_campaigns, "scenarios; a campaign's file says it itself");
+  const CampaignOptions how = options_of(options, methods);
+  const Campaign campaign = load_campaign(options.scenarios.front(), methods);
+  const Plan plan = make_plan(campaign, options.directory, how.out_of_tree);
+  Reporter reporter(console, how, options.quiet);
+  const CampaignOutcome outcome = run_campaign(plan, options.directory, how, reporter);
+  reporter.end();
+
+  if (outcome.signal != 0) {
+    console.error(
+        fmt::format("stopped by a signal after {} runs; the same command goes on", outcome.done));
+    StopSignals::die_of(outcome.signal);
+  }
+  if (!options.quiet && how.shard.is_whole()) {
+    print_report(rows_of(options.directory, plan), options.report, console.out);
+  } else if (!options.quiet) {
+    console.out << fmt::format("shard {} of {}: {} runs done, {} of them failed, {} were there\n",
+                               how.shard.number, how.shard.count, outcome.done, outcome.failed,
+                               outcome.recorded);
+  }
+  if (outcome.lost > 0) {
+    console.error(fmt::format("{} runs are lost; the same command tries them again", outcome.lost));
+    return kBadInput;
+  }
+  return options.strict && outcome.failed > 0 ? kRunFailed : kOk;
+}
+
+}  // namespace bqsa::harness
