@@ -3,7 +3,9 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <memory>
 #include <random>
 #include <string_view>
@@ -57,7 +59,7 @@ class RunWorker {
                       .durability = Durability::kMachine};
   }
 
-  std::string operator()(std::size_t index) {
+  std::string answer(std::size_t index) {
     try {
       return kRecord + record_of(plan_.runs[index]);
     } catch (const std::exception& error) {
@@ -120,9 +122,15 @@ CampaignOutcome run_campaign(const Plan& plan, const std::filesystem::path& dire
   CampaignOutcome outcome;
   const std::vector<std::size_t> runs = to_be_done(plan, log, options, outcome);
   watcher.begins(outcome);
+  if (runs.empty()) {
+    log.complete();
+    return outcome;
+  }
 
   const StopSignals stop;
-  WorkerPool pool(options.jobs, RunWorker(plan, directory, options, stop));
+  RunWorker worker(plan, directory, options, stop);
+  const int processes = std::clamp(static_cast<int>(runs.size()), 1, options.jobs);
+  WorkerPool pool(processes, [&worker](std::size_t run) { return worker.answer(run); });
   const auto lose = [&](const WorkResult& result, const std::string& why) {
     ++outcome.lost;
     watcher.has_lost(plan.runs[result.item], why);

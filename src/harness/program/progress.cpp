@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <array>
 #include <ostream>
 
 namespace bqsa::harness {
@@ -19,15 +21,14 @@ std::string duration_text(double seconds) {
 
 /// `████▌     `
 std::string bar_of(double share) {
+  constexpr std::array kBlocks{" ", "▏", "▎", "▍", "▌", "▋", "▊", "▉", "█"};  // by eighths
+  constexpr int kEighths = static_cast<int>(kBlocks.size()) - 1;
   constexpr int kCells = 20;
-  constexpr int kEighths = 8;
   const int full = static_cast<int>(share * kCells * kEighths);
   std::string bar;
   for (int cell = 0; cell < kCells; ++cell) {
-    const int eighths = std::min(std::max(full - cell * kEighths, 0), kEighths);
-    // Blocks of one to eight eighths: U+258F down to U+2588.
-    bar += eighths == 0 ? std::string(" ")
-                        : std::string("\xe2\x96") + static_cast<char>(0x90 - eighths);
+    const int eighths = std::clamp(full - cell * kEighths, 0, kEighths);
+    bar += kBlocks[static_cast<std::size_t>(eighths)];
   }
   return bar;
 }
