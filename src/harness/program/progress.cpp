@@ -58,7 +58,7 @@ void Progress::show(std::size_t done, const std::string& about) {
   const std::string text = fmt::format("{}/{}{}, {}", done, total_, pace, about);
   if (terminal_) {
     const double share = total_ > 0 ? static_cast<double>(done) / static_cast<double>(total_) : 1;
-    overwrite("|" + bar_of(share) + "| " + text);
+    overwrite(fmt::format("|{}| {}", bar_of(share), text));
   } else {
     err_ << text << std::endl;
     last_line_ = now;
