@@ -43,6 +43,11 @@ class StagedTextFile {
 /// @throws InputError naming the file if it cannot be written
 void write_text_file(const std::filesystem::path& file, std::string_view content);
 
+/// Likewise, but leaves a file that is there with just these bytes, and overwrites none with others.
+/// @return whether it was not there before
+/// @throws InputError naming the file if it has other bytes or cannot be written
+bool write_new_text_file(const std::filesystem::path& file, std::string_view content);
+
 /// Has the machine write what it may still hold back: a file, or what a directory lists. Not every file
 /// system can.
 void sync_file(const std::filesystem::path& file);

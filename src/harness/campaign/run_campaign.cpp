@@ -49,7 +49,7 @@ class RunWorker {
  public:
   RunWorker(const Plan& plan, const std::filesystem::path& directory,
             const CampaignOptions& options, const StopSignals& stop)
-      : plan_(plan), directory_(directory), stop_(stop) {
+      : plan_(plan), directory_(directory), load_(options.load), stop_(stop) {
     circumstances_ = {.settings = plan.settings,
                       .command_line = options.command_line,
                       .trajectories = plan.trajectories,
@@ -86,7 +86,7 @@ class RunWorker {
     judge_.reset();
     scenario_.reset();
     const PlannedScenario& planned = plan_.scenarios[index];
-    scenario_ = std::make_unique<Scenario>(load_scenario(planned.file));
+    scenario_ = std::make_unique<Scenario>(load_scenario(planned.file, load_));
     if (scenario_->sha256 != planned.sha256) {
       scenario_.reset();
       throw InputError(fmt::format("{}: changed since the campaign began", planned.file.string()));
@@ -105,6 +105,7 @@ class RunWorker {
 
   const Plan& plan_;
   std::filesystem::path directory_;
+  LoadOptions load_;
   const StopSignals& stop_;
   Circumstances circumstances_;
   std::size_t loaded_ = 0;

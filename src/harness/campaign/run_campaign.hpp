@@ -21,6 +21,7 @@ struct CampaignOptions {
   bool force = false;  ///< runs that are recorded, too
   std::optional<std::uint64_t>
       shuffle;               ///< seed of a random order of the runs; none: that of the plan
+  LoadOptions load = {};     ///< of scenarios
   std::string command_line;  ///< as recorded
   std::vector<std::string> out_of_tree;  ///< likewise
 };

@@ -4,6 +4,7 @@
 #include <ostream>
 
 #include "harness/campaign/campaign_log.hpp"
+#include "harness/campaign/plan_file.hpp"
 #include "harness/campaign/run_campaign.hpp"
 #include "harness/campaign/stop_signals.hpp"
 #include "harness/campaign/worker_pool.hpp"
@@ -78,7 +79,31 @@ CampaignOptions options_of(const RunOptions& options, const std::vector<MethodEn
           .out_of_tree = names_out_of_tree(methods)};
 }
 
+/// Thousands of scenarios take a while to load.
+Plan plan_of(const Campaign& campaign, const RunOptions& options, const CampaignOptions& how,
+             const Console& console) {
+  std::optional<Progress> progress;
+  const auto show = [&](std::size_t done, std::size_t all) {
+    if (!progress) progress.emplace(console, !options.quiet, all);
+    progress->show(done, "scenarios loaded");
+  };
+  return make_plan(campaign, options.directory,
+                   {.load = how.load, .out_of_tree = how.out_of_tree, .progress = show});
+}
+
 }  // namespace
+
+Status plan_command(const std::vector<MethodEntry>& methods, const RunOptions& options,
+                    const Console& console) {
+  const CampaignOptions how = options_of(options, methods);
+  const Campaign campaign = load_campaign(options.scenarios.front(), methods);
+  const Plan plan = plan_of(campaign, options, how, console);
+  write_plan(plan, version_text(how.out_of_tree), options.directory);
+  console.out << fmt::format("{}: campaign {}, {} scenarios, {} methods, {} runs\n",
+                             options.directory.string(), plan.campaign, plan.scenarios.size(),
+                             plan.methods.size(), plan.runs.size());
+  return kOk;
+}
 
 Status run_campaign_command(const std::vector<MethodEntry>& methods, const RunOptions& options,
                             const Console& console) {
@@ -89,7 +114,7 @@ Status run_campaign_command(const std::vector<MethodEntry>& methods, const RunOp
   refuse_options(options.not_for_campaigns, "scenarios; a campaign's file says it itself");
   const CampaignOptions how = options_of(options, methods);
   const Campaign campaign = load_campaign(options.scenarios.front(), methods);
-  const Plan plan = make_plan(campaign, options.directory, how.out_of_tree);
+  const Plan plan = plan_of(campaign, options, how, console);
   Reporter reporter(console, how, options.quiet);
   const CampaignOutcome outcome = run_campaign(plan, options.directory, how, reporter);
   reporter.end();

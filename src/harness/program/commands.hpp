@@ -77,6 +77,11 @@ struct RunOptions {
 /// @throws InputError `<option>: is for <where>` if an option is given that is not for this
 void refuse_options(const std::vector<std::string>& given, const std::string& where);
 
+/// Lists the runs of a campaign, and generates its scenarios, without running any.
+/// @throws InputError as run_campaign_command()
+Status plan_command(const std::vector<MethodEntry>& methods, const RunOptions& options,
+                    const Console& console);
+
 /// Runs what is missing of a campaign and prints the summary, or of a shard how many runs it did. A signal
 /// that ends a campaign ends the program likewise, after it has said how to go on.
 /// @throws InputError for a bad campaign, method or scenario, before anything runs, and when results cannot

@@ -126,6 +126,18 @@ void declare_run(CLI::App& app, CommandLine& line) {
   });
 }
 
+void declare_plan(CLI::App& app, CommandLine& line) {
+  CLI::App* plan = add_command(app, "plan", "Check a campaign and list its runs, without running");
+  plan->add_option("CAMPAIGN", line.run.scenarios, "Campaign file")->required()->expected(1);
+  plan->add_option("--out,-o", line.run.directory, "Directory of the campaign")->required();
+  add_external_option(*plan, line.externals);
+  plan->callback([&line] {
+    line.command = [&line](const Console& console) {
+      return plan_command(line.known(), line.run, console);
+    };
+  });
+}
+
 void declare_status(CLI::App& app, CommandLine& line) {
   CLI::App* status = add_command(app, "status", "Print how much of a campaign is recorded");
   status->add_option("DIR", line.results_directory, "Directory of a campaign")->required();
@@ -290,6 +302,7 @@ void declare_validate(CLI::App& app, CommandLine& line) {
 void declare_run_commands(CLI::App& app, CommandLine& line) {
   declare_list(app, line);
   declare_run(app, line);
+  declare_plan(app, line);
   declare_status(app, line);
   declare_missing(app, line);
   declare_merge(app, line);

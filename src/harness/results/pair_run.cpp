@@ -60,7 +60,7 @@ JudgedRun judged_run(const Scenario& scenario, const Judge& judge, const MethodS
   const RunOutcome outcome = run_outcome(problem, method, circumstances);
   Judgement judgement = judge.judge(outcome.trajectory);
   add_conduct(outcome, judgement);
-  const std::string file = trajectory_file(problem.name, run_name(method, circumstances.settings));
+  const std::string file = trajectory_file(problem.name, run_name(method, circumstances));
   try {
     if (is_kept(circumstances.trajectories, judgement)) {
       run.trajectory =
