@@ -37,17 +37,6 @@ void read_record(RecordLine& line) {
   line.success = line.applicable && value["judged"]["success"].boolean();
 }
 
-std::vector<fs::path> sorted_files(const fs::path& directory, std::string_view end) {
-  std::vector<fs::path> files;
-  std::error_code none;
-  for (const auto& entry : fs::directory_iterator(directory, none)) {
-    const std::string name = entry.path().filename().string();
-    if (name.ends_with(end)) files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 /// A shard that was complete by a former plan is taken up again.
 fs::path taken_up(const fs::path& directory, const Shard& shard) {
   if (shard.is_whole()) return kRunsFile;
@@ -109,17 +98,8 @@ fs::path complete_file(const Shard& shard) {
   return fs::path(kShards) / (name_of(shard) + ".jsonl");
 }
 
-std::vector<fs::path> record_files(const fs::path& directory) {
-  std::vector<fs::path> files;
-  std::error_code none;
-  if (fs::exists(runs_file(directory), none)) files.push_back(runs_file(directory));
-  const std::vector<fs::path> shards = sorted_files(directory / kShards, ".jsonl");
-  const auto is_partial = [](const fs::path& file) {
-    return file.filename().string().ends_with(".part.jsonl");
-  };
-  std::remove_copy_if(shards.begin(), shards.end(), std::back_inserter(files), is_partial);
-  std::copy_if(shards.begin(), shards.end(), std::back_inserter(files), is_partial);
-  return files;
+std::string text_of(const BadLine& line) {
+  return fmt::format("{}:{}: {}", line.file.string(), line.number, line.why);
 }
 
 std::vector<BadLine> for_each_record(const fs::path& directory,
@@ -135,11 +115,10 @@ std::vector<BadLine> for_each_record(const fs::path& directory,
       if (line.text.empty()) continue;
       try {
         read_record(line);
+        visit(line);
       } catch (const InputError& error) {
         bad.push_back({file, number, error.what()});
-        continue;
       }
-      visit(line);
     }
   }
   return bad;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "harness/pipe.hpp"
+#include "harness/results/record_files.hpp"
 #include "harness/results/result_store.hpp"
 
 namespace bqsa::harness {
@@ -27,10 +28,12 @@ struct Shard {
   bool is_whole() const { return count == 1; }
 };
 
-/// Number of the shard of so many that has a run.
+/// Number of the shard of so many that has a run. Goes round, and starts one further each time, so that
+/// no shard gets the runs of one slow method all.
 /// @param run  index into the plan
 inline int shard_of(std::size_t run, int count) {
-  return static_cast<int>(run % static_cast<std::size_t>(count)) + 1;
+  const auto shards = static_cast<std::size_t>(count);
+  return static_cast<int>((run + run / shards) % shards) + 1;
 }
 
 /// Reads `k/N`.
@@ -41,16 +44,15 @@ Shard parse_shard(std::string_view text);
 std::filesystem::path partial_file(const Shard& shard);
 std::filesystem::path complete_file(const Shard& shard);
 
-/// All files of records of a directory that are there, `runs.jsonl` first, then complete shards, then
-/// others, each by name.
-std::vector<std::filesystem::path> record_files(const std::filesystem::path& directory);
-
 /// A line that is no record of a campaign.
 struct BadLine {
   std::filesystem::path file;
   int number = 0;
   std::string why;
 };
+
+/// `<file>:<number>: <why>`
+std::string text_of(const BadLine& line);
 
 /// A record, as far as it matters to a campaign.
 struct RecordLine {
@@ -63,6 +65,7 @@ struct RecordLine {
 };
 
 /// Goes through all records of a directory, in the order of record_files(), of which lines may be cut short.
+/// @param visit  may throw InputError, too, for a line that is no record
 /// @return the lines that are not records
 std::vector<BadLine> for_each_record(const std::filesystem::path& directory,
                                      const std::function<void(const RecordLine&)>& visit);

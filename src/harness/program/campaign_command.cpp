@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <ostream>
 
-#include "harness/campaign/campaign_log.hpp"
 #include "harness/campaign/plan_file.hpp"
 #include "harness/campaign/run_campaign.hpp"
 #include "harness/campaign/stop_signals.hpp"
+#include "harness/campaign/stored_rows.hpp"
 #include "harness/campaign/worker_pool.hpp"
 #include "harness/methods.hpp"
 #include "harness/program/commands.hpp"
@@ -41,9 +41,7 @@ class Reporter : public CampaignWatcher {
     console_.error(fmt::format("run {} is lost: {}", run.key, why));
   }
 
-  void has_found(const BadLine& line) override {
-    console_.error(fmt::format("{}:{}: {}", line.file.string(), line.number, line.why));
-  }
+  void has_found(const BadLine& line) override { console_.error(text_of(line)); }
 
   void end() { progress_.reset(); }
 
@@ -59,22 +57,13 @@ class Reporter : public CampaignWatcher {
   std::optional<Progress> progress_;
 };
 
-std::vector<TableRow> rows_of(const std::filesystem::path& directory, const Plan& plan) {
-  std::unordered_set<std::string> planned;
-  for (const PlannedRun& run : plan.runs) planned.insert(run.key);
-  std::vector<TableRow> rows;
-  for_each_record(directory, [&](const RecordLine& line) {
-    if (planned.contains(line.key)) rows.push_back(parse_run_record(line.text));
-  });
-  return rows;
-}
-
 CampaignOptions options_of(const RunOptions& options, const std::vector<MethodEntry>& methods) {
   return {.jobs = options.jobs > 0 ? options.jobs
                                    : std::max(static_cast<int>(usable_processors().size()), 1),
           .shard = options.shard.empty() ? Shard{} : parse_shard(options.shard),
           .force = options.force,
           .shuffle = options.shuffled ? std::optional(options.shuffle) : std::nullopt,
+          .load = options.load,
           .command_line = options.command_line,
           .out_of_tree = names_out_of_tree(methods)};
 }
@@ -125,7 +114,7 @@ Status run_campaign_command(const std::vector<MethodEntry>& methods, const RunOp
     StopSignals::die_of(outcome.signal);
   }
   if (!options.quiet && how.shard.is_whole()) {
-    print_report(rows_of(options.directory, plan), options.report, console.out);
+    print_report(stored_rows(options.directory).rows, options.report, console.out);
   } else if (!options.quiet) {
     console.out << fmt::format("shard {} of {}: {} runs done, {} of them failed, {} were there\n",
                                how.shard.number, how.shard.count, outcome.done, outcome.failed,

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bqsa/method.hpp"
+#include "harness/scenario/scenario.hpp"
 
 namespace bqsa::harness {
 
@@ -44,9 +45,10 @@ struct ReportOptions {
 };
 
 struct RunOptions {
-  std::vector<std::filesystem::path>
-      scenarios;                     ///< files, and directories of files `*.yaml`; or a campaign
+  /// Files, and directories of files `*.yaml`; or a campaign.
+  std::vector<std::filesystem::path> scenarios;
   std::vector<std::string> methods;  ///< `M[:key=value,...]`; none means all
+  LoadOptions load;
   std::filesystem::path directory;
   bool strict = false;
   bool quiet = false;        ///< neither progress nor table
@@ -123,6 +125,7 @@ Status show_command(const std::filesystem::path& directory, const ReportOptions&
 
 struct StepOptions {
   std::filesystem::path scenario;
+  LoadOptions load;
   std::string method;             ///< `M[:key=value,...]`
   std::filesystem::path slowest;  ///< a results directory: its slowest tick of scenario and method
   int tick = 0;                   ///< if that is empty
@@ -135,12 +138,13 @@ Status step_command(const std::vector<MethodEntry>& methods, const StepOptions& 
 
 /// Prints the judgement of one trajectory file.
 Status judge_command(const std::filesystem::path& scenario, const std::filesystem::path& trajectory,
-                     bool strict, const Console& console);
+                     const LoadOptions& load, bool strict, const Console& console);
 
 struct ConformOptions {
   std::vector<std::string> methods;              ///< `M[:key=value,...]`
   std::vector<std::filesystem::path> scenarios;  ///< files, and directories of files `*.yaml`
-  double plan_budget = 10;                       ///< of planning methods [s]
+  LoadOptions load;
+  double plan_budget = 10;  ///< of planning methods [s]
 };
 
 /// Checks the laws of conformance.hpp and prints a line for each that is kept, or that found nothing to
@@ -235,6 +239,7 @@ Status figures_command(const FiguresOptions& options, const Console& console);
 
 /// Says of each scenario file, those in directories included, whether it can be used.
 /// @throws InputError for a directory that cannot be listed or holds none
-Status validate_command(const std::vector<std::filesystem::path>& named, const Console& console);
+Status validate_command(const std::vector<std::filesystem::path>& named, const LoadOptions& load,
+                        const Console& console);
 
 }  // namespace bqsa::harness

@@ -1,27 +1,21 @@
 #include <fmt/core.h>
 
 #include <ostream>
+#include <utility>
 
+#include "harness/campaign/stored_rows.hpp"
 #include "harness/measuring/compare_times.hpp"
 #include "harness/program/commands.hpp"
 #include "harness/results/compare_runs.hpp"
-#include "harness/results/result_store.hpp"
 
 namespace bqsa::harness {
 namespace {
 
 /// Unlike `show` it does without no line: what is missing could be what got worse.
 std::vector<TableRow> read_runs(const std::filesystem::path& directory) {
-  const std::filesystem::path file = runs_file(directory);
-  std::vector<TableRow> rows;
-  for (const StoredLine& line : read_lines(file)) {
-    try {
-      rows.push_back(parse_run_record(line.text));
-    } catch (const InputError& error) {
-      throw InputError(fmt::format("{}:{}: {}", file.string(), line.number, error.what()));
-    }
-  }
-  return rows;
+  StoredRows stored = stored_rows(directory);
+  if (!stored.bad_lines.empty()) throw InputError(text_of(stored.bad_lines.front()));
+  return std::move(stored.rows);
 }
 
 }  // namespace

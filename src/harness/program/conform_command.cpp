@@ -35,7 +35,7 @@ Status conform_command(const std::vector<MethodEntry>& methods, const ConformOpt
   for (const std::string& text : options.methods) specs.push_back(parse_method_spec(text, methods));
   std::vector<Problem> problems;
   for (const std::filesystem::path& file : with_directories_opened(options.scenarios)) {
-    problems.push_back(load_scenario(file).problem);
+    problems.push_back(load_scenario(file, options.load).problem);
   }
   const ConformanceSettings settings{.plan_budget_s = options.plan_budget, .limits = {}};
   bool kept = true;

@@ -49,7 +49,7 @@ std::string workers_text(const fs::path& directory) {
 
 void report_bad_lines(const Coverage& coverage, const Console& console) {
   for (const BadLine& line : coverage.bad_lines) {
-    console.error(fmt::format("{}:{}: {}", line.file.string(), line.number, line.why));
+    console.error(text_of(line));
   }
 }
 

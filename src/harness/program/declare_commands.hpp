@@ -31,6 +31,7 @@ struct CommandLine {
   std::filesystem::path scenario_directory;
   std::filesystem::path results_directory;
   std::filesystem::path scenario;
+  LoadOptions load;  ///< of judge and validate
   std::filesystem::path trajectory;
   std::vector<std::filesystem::path> files;
   std::string method_name;

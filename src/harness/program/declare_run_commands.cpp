@@ -21,6 +21,11 @@ void add_external_option(CLI::App& command, std::vector<std::string>& externals)
       ->allow_extra_args(false);
 }
 
+void add_load_options(CLI::App& command, LoadOptions& load) {
+  command.add_flag("--allow-outside", load.allow_outside,
+                   "Let scenarios name files outside of their own directories");
+}
+
 void add_report_options(CLI::App& command, ReportOptions& report) {
   CLI::Option* summary =
       command.add_flag("--summary", report.summary,
@@ -110,6 +115,7 @@ void declare_run(CLI::App& app, CommandLine& line) {
                   "Results directory; runs are added to an existing one, and the last of a\n"
                   "scenario and method counts, in the table and as trajectory")
       ->required();
+  add_load_options(*run, line.run.load);
   const std::vector<CLI::Option*> conditions = add_conditions(*run, line.run);
   const std::vector<CLI::Option*> of_campaigns = add_campaign_options(*run, line.run);
   add_external_option(*run, line.externals);
@@ -130,6 +136,7 @@ void declare_plan(CLI::App& app, CommandLine& line) {
   CLI::App* plan = add_command(app, "plan", "Check a campaign and list its runs, without running");
   plan->add_option("CAMPAIGN", line.run.scenarios, "Campaign file")->required()->expected(1);
   plan->add_option("--out,-o", line.run.directory, "Directory of the campaign")->required();
+  add_load_options(*plan, line.run.load);
   add_external_option(*plan, line.externals);
   plan->callback([&line] {
     line.command = [&line](const Console& console) {
@@ -192,9 +199,11 @@ void declare_step(CLI::App& app, CommandLine& line) {
   step->add_option("--method,-m", line.step.method, "Method with parameters, as for run")
       ->required();
   add_external_option(*step, line.externals);
+  add_load_options(*step, line.step.load);
   CLI::Option* slowest = step->add_option(
       "--slowest", line.step.slowest,
-      "Results directory: the slowest tick of this scenario and method, undisturbed");
+      "Results directory: the slowest tick of this scenario and method, undisturbed\n"
+      "(of a campaign: of all repetitions, as disturbed)");
   CLI::Option* tick = step->add_option("--tick", line.step.tick, "Tick, from 1")
                           ->check(CLI::Range(1, std::numeric_limits<int>::max()));
   CLI::Option* state = step->add_option(
@@ -222,6 +231,7 @@ void declare_conform(CLI::App& app, CommandLine& line) {
       ->required()
       ->allow_extra_args(false);
   add_external_option(*conform, line.externals);
+  add_load_options(*conform, line.conform.load);
   conform
       ->add_option("--plan-budget", line.conform.plan_budget,
                    "Wall time that planning methods may use for a plan [s] [10]")
@@ -240,10 +250,11 @@ void declare_judge(CLI::App& app, CommandLine& line) {
       ->add_option("TRAJECTORY", line.trajectory,
                    "CSV file t,q1..qn [s, rad], one row for each of the ticks and the start")
       ->required();
+  add_load_options(*judge, line.load);
   judge->add_flag("--strict", line.strict, "Exit with 1 if it is not a success [0 all the same]");
   judge->callback([&line] {
     line.command = [&line](const Console& console) {
-      return judge_command(line.scenario, line.trajectory, line.strict, console);
+      return judge_command(line.scenario, line.trajectory, line.load, line.strict, console);
     };
   });
 }
@@ -290,9 +301,10 @@ void declare_validate(CLI::App& app, CommandLine& line) {
   CLI::App* validate = add_command(app, "validate", "Check scenario files without running");
   validate->add_option("FILE", line.files, "Scenario files, or directories with files *.yaml")
       ->required();
+  add_load_options(*validate, line.load);
   validate->callback([&line] {
     line.command = [&line](const Console& console) {
-      return validate_command(line.files, console);
+      return validate_command(line.files, line.load, console);
     };
   });
 }

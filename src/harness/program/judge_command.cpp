@@ -58,9 +58,9 @@ void print(const Judgement& judgement, const Problem& problem, std::ostream& out
 }  // namespace
 
 Status judge_command(const std::filesystem::path& scenario_file,
-                     const std::filesystem::path& trajectory_file, bool strict,
-                     const Console& console) {
-  const Scenario scenario = load_scenario(scenario_file);
+                     const std::filesystem::path& trajectory_file, const LoadOptions& load,
+                     bool strict, const Console& console) {
+  const Scenario scenario = load_scenario(scenario_file, load);
   const Problem& problem = scenario.problem;
   const Trajectory trajectory = read_trajectory(trajectory_file, problem.chain.joints());
   const Judgement judgement = Judge(problem).judge(trajectory);

@@ -52,6 +52,7 @@ std::string hint_for(const std::filesystem::path& file, const std::vector<Method
 
 /// The files that can be used; the others are reported.
 std::vector<std::filesystem::path> usable(const std::vector<std::filesystem::path>& files,
+                                          const LoadOptions& load,
                                           const std::vector<MethodEntry>& methods,
                                           const Console& console) {
   std::vector<std::filesystem::path> good;
@@ -59,7 +60,7 @@ std::vector<std::filesystem::path> usable(const std::vector<std::filesystem::pat
   for (const std::filesystem::path& file : files) {
     std::string name;
     try {
-      name = load_scenario(file).problem.name;
+      name = load_scenario(file, load).problem.name;
     } catch (const InputError& error) {
       console.error(error.what() + hint_for(file, methods));
       continue;
@@ -115,7 +116,7 @@ Status run_command(const std::vector<MethodEntry>& methods, const RunOptions& op
   Circumstances circumstances = circumstances_of(options);
   circumstances.out_of_tree = names_out_of_tree(methods);
   const std::vector<std::filesystem::path> named = with_directories_opened(options.scenarios);
-  const std::vector<std::filesystem::path> files = usable(named, methods, console);
+  const std::vector<std::filesystem::path> files = usable(named, options.load, methods, console);
   const std::size_t refused = named.size() - files.size();
   const auto count_refused = [&] {
     if (refused == 0) return;
@@ -155,7 +156,7 @@ Status run_command(const std::vector<MethodEntry>& methods, const RunOptions& op
     };
     for (const std::filesystem::path& file : files) {
       reporting([&] {
-        const Scenario scenario = load_scenario(file);
+        const Scenario scenario = load_scenario(file, options.load);
         const Judge judge(scenario.problem);
         for (const MethodSpec& spec : specs) {
           for (std::uint64_t k = 0; k < seeds_of(spec, options); ++k) {

@@ -2,27 +2,24 @@
 
 #include <ostream>
 
+#include "harness/campaign/stored_rows.hpp"
 #include "harness/program/commands.hpp"
 #include "harness/program/report.hpp"
-#include "harness/results/result_store.hpp"
 
 namespace bqsa::harness {
 
 Status show_command(const std::filesystem::path& directory, const ReportOptions& report,
                     const Console& console) {
-  const std::filesystem::path file = runs_file(directory);
-  Status status = kOk;
-  std::vector<TableRow> rows;
-  for (const StoredLine& line : read_lines(file)) {
-    try {
-      rows.push_back(parse_run_record(line.text));
-    } catch (const InputError& error) {
-      console.error(fmt::format("{}:{}: {}", file.string(), line.number, error.what()));
-      status = kBadInput;
-    }
+  const StoredRows stored = stored_rows(directory);
+  for (const BadLine& line : stored.bad_lines) console.error(text_of(line));
+  print_report(stored.rows, report, console.out);
+  if (stored.stale > 0) {
+    console.out << fmt::format(
+        "left out: {} records of another program, scenario or set of parameters (bqsa-bench "
+        "status)\n",
+        stored.stale);
   }
-  print_report(rows, report, console.out);
-  return status;
+  return stored.bad_lines.empty() ? kOk : kBadInput;
 }
 
 }  // namespace bqsa::harness

@@ -6,9 +6,9 @@
 #include <numbers>
 #include <ostream>
 
+#include "harness/campaign/stored_rows.hpp"
 #include "harness/program/commands.hpp"
 #include "harness/program/external_methods.hpp"
-#include "harness/results/result_store.hpp"
 #include "harness/results/run_record.hpp"
 #include "harness/results/table_row.hpp"
 #include "harness/results/text_table.hpp"
@@ -77,22 +77,30 @@ Replay given_tick(const StepOptions& options, const Problem& problem) {
   return {options.tick, trajectory.q[row]};
 }
 
+/// The runs of a method on this scenario file: the last undisturbed one; of a campaign all repetitions,
+/// whatever disturbed them, but for those that are no longer of its plan.
+std::vector<TableRow> stored_runs(const std::filesystem::path& directory, const Scenario& scenario,
+                                  const std::string& variant) {
+  std::vector<TableRow> rows;
+  for (const TableRow& row : stored_rows(directory).rows) {  // `show` reports lines that are broken
+    const bool in_campaign = !row.key.empty();
+    const bool same_file = row.scenario == scenario.problem.name && row.sha256 == scenario.sha256;
+    const bool same_method =
+        row.variant == variant || (in_campaign && row.variant.starts_with(variant + '+'));
+    if (same_file && same_method) rows.push_back(row);
+  }
+  return last_runs(rows);
+}
+
 Replay slowest_tick(const std::filesystem::path& directory, const Scenario& scenario,
                     const MethodSpec& spec) {
   const std::filesystem::path file = runs_file(directory);
   const std::string variant = variant_name(spec);
   const std::string name = scenario.problem.name;
   TableRow found;
-  for (const StoredLine& line : read_lines(file)) {
-    TableRow row;
-    try {
-      row = parse_run_record(line.text);
-    } catch (const InputError&) {
-      continue;  // `show` reports it
-    }
-    if (row.scenario == name && row.sha256 == scenario.sha256 && row.variant == variant) {
-      found = row;
-    }
+  for (const TableRow& row : stored_runs(directory, scenario, variant)) {
+    const bool slower = found.slowest_q.empty() || row.slowest_s > found.slowest_s;
+    if (!row.slowest_q.empty() && slower) found = row;
   }
   if (found.slowest_q.empty()) {
     throw InputError(fmt::format("{}: holds no slowest tick of {} on this file of {}",
@@ -156,7 +164,7 @@ bool same_answer(const StepOutput& a, const StepOutput& b) {
 Status step_command(const std::vector<MethodEntry>& methods, const StepOptions& options,
                     const Console& console) {
   const MethodSpec spec = parse_method_spec(options.method, methods);
-  const Scenario scenario = load_scenario(options.scenario);
+  const Scenario scenario = load_scenario(options.scenario, options.load);
   const Problem& problem = scenario.problem;
   const std::string why_not = why_not_applicable(spec.entry.capabilities, problem);
   if (!why_not.empty()) throw InputError(fmt::format("{}: {}", spec.entry.name, why_not));

@@ -8,11 +8,12 @@
 
 namespace bqsa::harness {
 
-Status validate_command(const std::vector<std::filesystem::path>& named, const Console& console) {
+Status validate_command(const std::vector<std::filesystem::path>& named, const LoadOptions& load,
+                        const Console& console) {
   Status status = kOk;
   for (const std::filesystem::path& file : with_directories_opened(named)) {
     try {
-      const Problem problem = load_scenario(file).problem;
+      const Problem problem = load_scenario(file, load).problem;
       console.out << fmt::format("{}: valid: {}, joints: {}, obstacles: {}, ticks: {}\n",
                                  file.string(), problem.name, problem.chain.joints(),
                                  problem.obstacles.size(), problem.ticks);

@@ -30,13 +30,14 @@ struct MethodPairs {
 };
 
 auto key_of(const TableRow& row) {
-  return std::tie(row.scenario, row.sha256, row.variant, row.seed);
+  return std::tie(row.scenario, row.sha256, row.variant, row.seed, row.repetition);
 }
 
 /// Methods in the order of their first pairs.
 std::vector<MethodPairs> pairs_of(const std::vector<TableRow>& before,
                                   const std::vector<TableRow>& after) {
-  std::map<std::tuple<std::string, std::string, std::string, std::string>, const TableRow*> partner;
+  std::map<std::tuple<std::string, std::string, std::string, std::string, int>, const TableRow*>
+      partner;
   for (const TableRow& row : after) {
     if (row.applicable) partner[key_of(row)] = &row;
   }

@@ -20,7 +20,7 @@ inline constexpr double kSameTipError = 1e-6;
 /// by chance (sign test, 3 %).
 inline constexpr std::size_t kFewestTimePairs = 6;
 
-/// Pairs runs by scenario file, method with parameters, and seed; of several the last counts. For
+/// Pairs runs by scenario file, method with parameters, seed, and repetition; of several the last counts. For
 /// each method:
 /// - success: worse if more scenarios are lost than won. Methods that answer tick by tick repeat
 ///   themselves exactly; for planners, whose plans depend on the time they get, the exact sign test

@@ -15,7 +15,8 @@ namespace bqsa::harness {
 namespace {
 
 constexpr std::string_view kSummaryLegend =
-    R"(success     runs judged a success of all runs of a method that applies; 95 %: Wilson's interval
+    R"(success     runs judged a success of all runs of a method that applies; 95 %: Wilson's interval, for which the
+            repetitions of a scenario, which are not independent, count as one run
 claim       wrong: runs in which the method claims success and the judge finds a failure, or the other way round
 failures    each failed run once: by the judge's most telling verdict, or, if the method only gave up, by its reason
 why         each run that gave up once: no free posture found; a way, but too far for one tick; arm singular; free
@@ -27,7 +28,8 @@ increments  clamping increments of a tick, over all ticks of all successes in wh
 time        wall clock of a tick, over all ticks from the second on of all successes, as if of one run; median and
             quantiles to 2.2 % (from histograms), max exact; slowest: of all runs, also those that gave up;
             total: of all runs, all that the methods did
-in pairs    scenarios to which both methods apply, by who succeeded; methods that never did are left out
+in pairs    scenarios to which both methods apply, each repetition by itself, by who succeeded; methods that never
+            did are left out
 )";
 
 /// What the names of the variants stand for.
@@ -118,6 +120,7 @@ std::string render_summary(const std::vector<TableRow>& all_rows) {
 std::string render_failures(const std::vector<TableRow>& all_rows) {
   TextTable table({{"failed run", "", true},
                    {"method", "", true},
+                   {"repe-", "tition", false, true},
                    {"class", "", true},
                    {"tick", ""},
                    {"link", ""},
@@ -127,7 +130,7 @@ std::string render_failures(const std::vector<TableRow>& all_rows) {
   for (const TableRow& row : last_runs(all_rows)) {
     if (!row.applicable || row.success) continue;
     any = true;
-    table.add_row({row.scenario, row.variant, failure_class(row),
+    table.add_row({row.scenario, row.variant, std::to_string(row.repetition), failure_class(row),
                    row.failure_tick >= 0 ? std::to_string(row.failure_tick) : "-",
                    row.failure_link > 0 ? std::to_string(row.failure_link) : "-",
                    row.failure_obstacle.empty() ? "-" : row.failure_obstacle, row.claim_class});

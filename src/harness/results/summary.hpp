@@ -12,7 +12,7 @@ namespace bqsa::harness {
 
 /// Plain text of at most 120 columns (names longer than that excepted): how often each method
 /// succeeds on each family, why it fails, how accurate and how fast it is, and methods in pairs. Of
-/// several runs of the same scenario file and variant the last counts.
+/// several runs of the same scenario file, variant and repetition the last counts.
 std::string render_summary(const std::vector<TableRow>& rows);
 
 /// A line for each run that failed: scenario, method, class of failure, and where.

@@ -160,6 +160,7 @@ std::string notes_of(const TableRow& row) {
   }
   if (!row.changed.empty()) text += note("with", {row.changed});
   if (!row.seed.empty() && row.seed != kDefaultSeed) text += note("seed", {row.seed});
+  if (row.repetition > 1) text += note(fmt::format("repetition {}", row.repetition), {});
   if (!row.disturbance.empty()) text += note("disturbed:", {row.disturbance});
   return text;
 }

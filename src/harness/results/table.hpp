@@ -12,8 +12,8 @@ namespace bqsa::harness {
 
 /// Plain text of at most 120 columns (names longer than that excepted): a block a scenario file, a row a method,
 /// notes below the rows that need them, a legend with the definition of success. Blocks and rows
-/// stand in the order of first appearance; of several runs of the same scenario file and
-/// variant the last counts. Files of the same name with other bytes stand apart.
+/// stand in the order of first appearance; of several runs of the same scenario file,
+/// variant and repetition the last counts. Files of the same name with other bytes stand apart.
 std::string render_table(const std::vector<TableRow>& rows);
 
 /// The table's word for a failure of the judge, `collides` for `collision`.

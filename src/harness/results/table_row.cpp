@@ -214,14 +214,20 @@ void read_run(const RecordValue& record, TableRow& row) {
   read_times(record["times"], row);
 }
 
+bool in_campaign(const RecordValue& record) {
+  return record.has("campaign") && !record["campaign"].is_null();  // old records lack it
+}
+
 std::string disturbance_text(const RecordValue& record) {
   if (!record.has("disturbance")) return "";
   const RecordValue disturbance = record["disturbance"];
   const double noise = disturbance["joint_noise_rad"].number();
   std::string text;
   if (noise > 0) {
-    text = fmt::format("joint angles read with normal noise of {:.4g} rad, seed {}", noise,
-                       record["provenance"]["seed"].whole());
+    const std::string seed = in_campaign(record)
+                                 ? "of scenario and repetition"
+                                 : std::to_string(record["provenance"]["seed"].whole());
+    text = fmt::format("joint angles read with normal noise of {:.4g} rad, seed {}", noise, seed);
   }
   const int latency = disturbance["latency_ticks"].integer();
   if (latency > 0) {
@@ -256,6 +262,10 @@ TableRow parse_run_record(std::string_view text) {
   if (record["method"].has("seed") && !record["method"]["seed"].is_null()) {
     row.seed = std::to_string(record["method"]["seed"].whole());
   }
+  if (in_campaign(record)) {
+    row.key = record["campaign"]["key"].text();
+    row.repetition = record["campaign"]["repetition"].integer();
+  }
   row.disturbance = disturbance_text(record);
   row.build = build_text(record["provenance"]);
   row.compiler = record["provenance"]["compiler"].text();
@@ -272,10 +282,10 @@ TableRow parse_run_record(std::string_view text) {
 
 std::vector<TableRow> last_runs(const std::vector<TableRow>& rows) {
   std::vector<TableRow> shown;
-  std::map<std::tuple<std::string, std::string, std::string, std::string>, std::size_t> places;
+  std::map<std::tuple<std::string, std::string, std::string, std::string, int>, std::size_t> places;
   for (const TableRow& row : rows) {
-    const auto [place, first] =
-        places.try_emplace({row.scenario, row.sha256, row.variant, row.seed}, shown.size());
+    const auto [place, first] = places.try_emplace(
+        {row.scenario, row.sha256, row.variant, row.seed, row.repetition}, shown.size());
     if (first) {
       shown.push_back(row);
     } else {

@@ -24,6 +24,8 @@ struct TableRow {
   std::string variant;  ///< method, with the hash of its changed parameters
   std::string changed;  ///< those parameters
   std::string seed;     ///< of a planning method; empty if it answers tick by tick, or is unknown
+  std::string key;      ///< CampaignPlace::key; empty if it is not of a campaign
+  int repetition = 0;   ///< CampaignPlace::repetition; 0 if it is not of a campaign
   std::string disturbance;  ///< what disturbed it, as text; empty if nothing did
   std::string build;        ///< program, compiler and machine, as text
   std::string compiler;
@@ -82,7 +84,8 @@ std::string length_text(double metres);
 ///   itself about success or the claim
 TableRow parse_run_record(std::string_view record);
 
-/// The last run of each scenario file, variant and seed, at the place of the first.
+/// The last run of each scenario file, variant, seed and repetition, at the place of the first. Keys do not
+/// tell runs apart: one of another program has another key and takes the place of the older run.
 std::vector<TableRow> last_runs(const std::vector<TableRow>& rows);
 
 /// Number of different scenario files.

@@ -20,8 +20,8 @@ double median_of(std::span<const double> sorted) {
   return sorted.size() % 2 == 1 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
 }
 
-Interval wilson_interval(int successes, int runs) {
-  if (runs == 0) return {0, 1};
+Interval wilson_interval(double successes, double runs) {
+  if (!(runs > 0)) return {0, 1};
   constexpr double kZ = 1.959963984540054;  // of 95 %
   const double n = runs;
   const double share = successes / n;

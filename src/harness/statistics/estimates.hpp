@@ -28,8 +28,9 @@ double quantile_of(std::span<const double> sorted, double share);
 double median_of(std::span<const double> sorted);
 
 /// Wilson's score interval of 95 % for the probability of success.
-/// The whole range if there were no runs.
-Interval wilson_interval(int successes, int runs);
+/// The whole range if there were no runs. Neither number has to be whole: runs that repeat each other in
+/// part are worth fewer independent ones.
+Interval wilson_interval(double successes, double runs);
 
 /// exp(mean(log(x + shift))) - shift, in which small values count little and large ones do not drown
 /// the rest; a failure counts as `penalty`, so that a method gains nothing by giving up.

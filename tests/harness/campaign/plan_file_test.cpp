@@ -23,9 +23,7 @@ Plan small_plan() {
 }
 
 const char *const kText =
-                      R"({"schema":"bqsa-plan/1","campaign":"small","program":"0.1.0 (commit x)",
-                  "runs" : 3
-}
+                      R"({"schema":"bqsa-plan/1","campaign":"small","program":"0.1.0, commit x","runs":3}
 {"key":"k1","scenario":"a","variant":"plain+noise=0.001","repetition":1}
 {"key":"k2","scenario":"a","variant":"tuned@91a23648+noise=0.001","repetition":1}
 {"key":"k3","scenario":"b","variant":"plain+noise=0.001","repetition":2}
@@ -39,17 +37,17 @@ std::string text_in(const TestDirectory& directory) {
 TEST(PlanFile, HasALineARunAfterItsHead) {
   const TestDirectory directory;
   EXPECT_FALSE(has_plan(directory.path()));
-  write_plan(small_plan(), "0.1.0 (commit x)", directory.path());
+  write_plan(small_plan(), "0.1.0, commit x", directory.path());
   EXPECT_TRUE(has_plan(directory.path()));
   EXPECT_EQ(text_in(directory), kText);
 }
 
 TEST(PlanFile, IsReadAsItWasWritten) {
   const TestDirectory directory;
-  write_plan(small_plan(), "0.1.0 (commit x)", directory.path() / "made");
+  write_plan(small_plan(), "0.1.0, commit x", directory.path() / "made");
   const ListedPlan plan = read_plan(directory.path() / "made");
   EXPECT_EQ(plan.campaign, "small");
-  EXPECT_EQ(plan.program, "0.1.0 (commit x)");
+  EXPECT_EQ(plan.program, "0.1.0, commit x");
   ASSERT_EQ(plan.runs.size(), 3u);
   EXPECT_EQ(plan.runs[1].key, "k2");
   EXPECT_EQ(plan.runs[1].scenario, "a");

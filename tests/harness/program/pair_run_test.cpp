@@ -83,7 +83,8 @@ std::set<std::string> documented_keys() {
                         "version commit dirty compiler build_type flags assertions sanitizers "
                         "libraries processor cores governor load_average os date seed "
                         "plan_budget_s isolated wall_limit_s memory_limit_bytes command_line "
-                        "out_of_tree external"));
+                        "out_of_tree external host restarts jobs"));
+  all.merge(with_prefix("campaign.", "name key repetition"));
   return all;
 }
 
@@ -100,6 +101,15 @@ class PairRun : public ::testing::Test {
   const Judge judge_{scenario_.problem};
 };
 
+/// Of a noisy run of a campaign, whose seed depends on the repetition.
+Circumstances in_campaign(int repetition, char digit) {
+  return {.settings = {.seed = 100u + static_cast<unsigned>(repetition),
+                       .disturbance = {.joint_noise = 1e-3}},
+          .command_line = "test",
+          .jobs = 2,
+          .place = CampaignPlace{"small", std::string(32, digit), repetition}};
+}
+
 /// Turns joint 1 until link 7 is deep in an obstacle, then gives up.
 void sweep_and_give_up(const StepInput& input, StepOutput& output) {
   constexpr double kStep = -0.05;  // towards the object [rad]
@@ -113,7 +123,18 @@ void sweep_and_give_up(const StepInput& input, StepOutput& output) {
 TEST_F(PairRun, RecordHasExactlyTheDocumentedKeys) {
   const Json record = run(scripted("sweep", sweep_and_give_up));
   EXPECT_FALSE(record["judged"]["contacts"].empty()) << "the sweep missed all obstacles";
-  EXPECT_EQ(keys_of(record), documented_keys());
+  std::set<std::string> keys = documented_keys();
+  for (const char* part : {"name", "key", "repetition"})
+    keys.erase(std::string("campaign.") + part);
+  keys.insert("campaign");
+  EXPECT_EQ(keys_of(record), keys) << "of no campaign";
+  EXPECT_TRUE(record["campaign"].is_null());
+
+  Circumstances circumstances = in_campaign(1, 'a');
+  ResultStore store(directory_.path());
+  const StoredRun stored =
+      run_pair(scenario_, judge_, scripted("sweep", sweep_and_give_up), circumstances, store);
+  EXPECT_EQ(keys_of(Json::parse(stored.record)), documented_keys());
 }
 
 TEST_F(PairRun, EveryKeyOfARecordIsInTheDocument) {
@@ -330,6 +351,59 @@ TEST_F(PairRun, ADisturbedRunIsAVariantOfItsOwn) {
   EXPECT_EQ(last_runs({row, late_row, plain}).size(), 3u);
 }
 
+TEST_F(PairRun, OfACampaignRepetitionsStandApartAndSeedsAreNotNamed) {
+  ResultStore store(directory_.path());
+  const MethodSpec spec = scripted("lying", stand_still);
+  const auto record_of = [&](int repetition, char digit) {
+    return Json::parse(
+        run_pair(scenario_, judge_, spec, in_campaign(repetition, digit), store).record);
+  };
+  const Json first = record_of(1, 'a');
+  EXPECT_EQ(first["method"]["variant"], "lying+noise=0.001");
+  EXPECT_EQ(first["trajectory"], "trajectories/planar_7r/lying+noise=0.001+aaaaaaaa.csv");
+  EXPECT_EQ(first["campaign"]["name"], "small");
+  EXPECT_EQ(first["campaign"]["key"], std::string(32, 'a'));
+  EXPECT_EQ(first["campaign"]["repetition"], 1);
+  EXPECT_EQ(first["provenance"]["seed"], 101);
+  EXPECT_EQ(first["provenance"]["jobs"], 2);
+  const TableRow row = parse_run_record(first.dump());
+  EXPECT_EQ(row.key, std::string(32, 'a'));
+  EXPECT_EQ(row.repetition, 1);
+  EXPECT_EQ(row.disturbance,
+            "joint angles read with normal noise of 0.001 rad, seed of scenario and repetition");
+
+  const TableRow second = parse_run_record(record_of(2, 'b').dump());
+  EXPECT_EQ(last_runs({row, second}).size(), 2u);
+  const TableRow again = parse_run_record(record_of(2, 'c').dump());
+  const std::vector<TableRow> last = last_runs({row, second, again});
+  ASSERT_EQ(last.size(), 2u) << "of another program";
+  EXPECT_EQ(last[1].key, std::string(32, 'c'));
+}
+
+TEST_F(PairRun, APlannerOfACampaignIsNamedByItsKeyNotItsSeed) {
+  MethodSpec spec = planned("planner", {});
+  Circumstances circumstances = in_campaign(3, 'd');
+  circumstances.settings.disturbance = {};
+  EXPECT_EQ(run_name(spec, circumstances), "planner+dddddddd");
+  circumstances.place.reset();
+  EXPECT_EQ(run_name(spec, circumstances), "planner+seed=103");
+}
+
+TEST_F(PairRun, ARecordSaysOnWhichHostAndHowOftenSlurmRestartedIt) {
+  const auto restarts = [this] {
+    return run(scripted("lying", stand_still))["provenance"]["restarts"];
+  };
+  EXPECT_EQ(restarts(), 0);
+  setenv("SLURM_RESTART_COUNT", "3", 1);
+  EXPECT_EQ(restarts(), 3);
+  setenv("SLURM_RESTART_COUNT", "many", 1);
+  EXPECT_EQ(restarts(), 0);
+  unsetenv("SLURM_RESTART_COUNT");
+  std::string host;
+  std::ifstream("/proc/sys/kernel/hostname") >> host;
+  EXPECT_EQ(run(scripted("lying", stand_still))["provenance"]["host"], host);
+}
+
 TEST_F(PairRun, APlannerIsNotRunWithDisturbances) {
   ResultStore store(directory_.path());
   const Circumstances late{.settings = {.disturbance = {.latency_ticks = 1}},
@@ -465,6 +539,8 @@ TEST(RunRecord, OldRecordsCanStillBeRead) {
     const TableRow row = parse_run_record(line.text);
     EXPECT_EQ(row.disturbance, "");
     EXPECT_TRUE(row.slowest_q.empty());
+    EXPECT_EQ(row.key, "");
+    EXPECT_EQ(row.repetition, 0);
     ++read;
   }
   EXPECT_EQ(read, 2);

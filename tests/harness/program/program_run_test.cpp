@@ -351,6 +351,41 @@ TEST_F(ProgramRun, StepRepeatsTheSlowestTick) {
   EXPECT_THAT(other.err, HasSubstr("holds no slowest tick of none on this file of planar_7r"));
 }
 
+TEST_F(ProgramRun, StepRepeatsTheSlowestTickOfAllRepetitionsOfACampaign) {
+  ASSERT_EQ(run({kPlanar, "--method", "bqsa", "--joint-noise", "1e-6"}).status, 0);
+  nlohmann::json record = records().at(0);
+  record["method"]["variant"] = "bqsa+noise=1e-06";
+  std::string lines, plan;
+  const auto add = [&](int repetition, const std::string& key, int tick, double seconds,
+                       bool planned) {
+    record["campaign"] = {{"name", "small"}, {"key", key}, {"repetition", repetition}};
+    record["times"]["warm_max_tick"] = tick;
+    record["times"]["warm_max_s"] = seconds;
+    lines += record.dump() + "\n";
+    if (!planned) return;
+    plan += nlohmann::json{{"key", key},
+                           {"scenario", "planar_7r"},
+                           {"variant", "bqsa+noise=1e-06"},
+                           {"repetition", repetition}}
+                .dump() +
+            "\n";
+  };
+  add(1, "k1", 11, 1e-3, true);
+  add(2, "k2", 22, 3e-3, true);
+  add(3, "old", 44, 9e-3, false);  // of a changed program: the last of its repetition, too
+  add(3, "k3", 33, 2e-3, true);
+  add(4, "stale", 55, 9e-3, false);
+  write_file(out_ + "/runs.jsonl", lines);
+  write_file(out_ + "/plan.jsonl",
+             R"({"schema":"bqsa-plan/1","campaign":"small","program":"p","runs":3})"
+             "\n" +
+                 plan);
+  const ProgramResult slowest =
+      run_bqsa_bench({"step", kPlanar, "--method", "bqsa", "--slowest", out_});
+  ASSERT_EQ(slowest.status, 0) << slowest.err;
+  EXPECT_THAT(slowest.out, HasSubstr("tick: 22 of 400"));
+}
+
 TEST_F(ProgramRun, StepSaysWhatWasCleared) {
   ASSERT_EQ(run({kPlanar, "--method", "bqsa"}).status, 0);
   bool cleared = false;

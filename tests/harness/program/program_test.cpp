@@ -195,6 +195,37 @@ TEST(Program, ValidateSpeaksOfEveryFile) {
   EXPECT_EQ(run_bqsa_bench({"validate", kPlanar, kPuma}).status, 0);
 }
 
+TEST(Program, FilesOutsideOfAScenariosDirectoryAreReadOnlyIfThatIsAllowed) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path inner = directory.path() / "inner";
+  std::filesystem::create_directory(inner);
+  write_file(directory.path() / "way.csv", "t,x,y\n0,1,0.8\n2,0.6,0.9\n");
+  const std::string scenario = (inner / "scenario.yaml").string();
+  write_file(scenario,
+             "schema: bqsa-scenario/1\nname: outside\nunits: {length: m, angle: deg}\n"
+             "robot: {kind: planar, links: [1, 0.8]}\nstart: [0, 90]\ntask:\n"
+             "  path: {kind: waypoints, file: ../way.csv}\n  timing: {duration: 2, ticks: 20}\n");
+  const std::string out = (directory.path() / "out").string();
+  const std::string trajectory = out + "/trajectories/outside/none.csv";
+  const std::vector<std::vector<std::string>> commands = {
+      {"validate", scenario},
+      {"run", scenario, "--method", "none", "--out", out},
+      {"judge", scenario, trajectory},
+      {"step", scenario, "--method", "none", "--slowest", out},
+      {"conform", scenario, "--method", "none"}};
+  for (std::vector<std::string> command : commands) {
+    SCOPED_TRACE(command.front());
+    const ProgramResult refused = run_bqsa_bench(command);
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_THAT(refused.err, HasSubstr("scenario.yaml:7: task.path.file: expected a file in the "
+                                       "scenario's directory (unless --allow-outside is given), "
+                                       "got ../way.csv"));
+    command.push_back("--allow-outside");
+    const ProgramResult allowed = run_bqsa_bench(command);
+    EXPECT_EQ(allowed.status, 0) << allowed.err;
+  }
+}
+
 TEST(Program, ValidateTakesDirectories) {
   const ProgramResult result = run_bqsa_bench({"validate", BQSA_SOURCE_DIR "/scenarios"});
   EXPECT_EQ(result.status, 0);

@@ -268,6 +268,44 @@ TEST(Summary, ComparesMethodsOnTheScenariosOfBoth) {
   EXPECT_THAT(words_of(render_summary(rows), "A,"), ElementsAre("B", "10", "4", "3", "2", "1"));
 }
 
+/// Two methods on three scenarios, three times each: A fails in the second repetition, B in all of the third
+/// scenario.
+std::vector<TableRow> repeated_runs() {
+  std::vector<TableRow> rows;
+  for (int scenario = 1; scenario <= 3; ++scenario) {
+    for (int repetition = 1; repetition <= 3; ++repetition) {
+      const std::string name = "p_s1_" + std::to_string(scenario);
+      for (const char* method : {"A", "B"}) {
+        const bool good = *method == 'A' ? repetition != 2 : scenario != 3;
+        TableRow row = good ? success(name, method) : failed(name, method, Failure::kDrift);
+        row.repetition = repetition;
+        row.slowest_s = 1e-5 * (scenario == 2 && repetition == 3 ? 9 : repetition);
+        rows.push_back(row);
+      }
+    }
+  }
+  return rows;
+}
+
+TEST(Summary, RepetitionsCountAndArePaired) {
+  const std::string text = render_summary(repeated_runs());
+  EXPECT_THAT(text, HasSubstr("18 runs on 3 scenarios"));
+  // The interval is that of 2 successes in 3, from (p - 2/3)^2 = z^2 p (1 - p) / 3: three times as many
+  // runs do not make it narrower.
+  EXPECT_THAT(words_of(text, "A"), ElementsAre("9", "6", "66.7", "20.8", "to", "93.9", "3", "0"));
+  EXPECT_THAT(words_of(text, "A,"), ElementsAre("B", "9", "4", "2", "2", "1"));
+}
+
+TEST(Summary, TheSlowestTickIsNamedWithItsRepetition) {
+  const std::string text = render_summary(repeated_runs());
+  const std::string times = text.substr(text.find("\ntime "));
+  const std::vector<std::string> words = words_of(times, "A");
+  ASSERT_GE(words.size(), 5u) << times;
+  EXPECT_THAT(std::vector<std::string>(words.end() - 5, words.end()),
+              ElementsAre("90", "p_s1_2", "3", "3", "4.5"));
+  EXPECT_THAT(render_summary({success("a_1", "m")}), Not(HasSubstr("tition")));
+}
+
 TEST(Summary, TheLastRunOfAFileAndVariantCounts) {
   TableRow old = failed("p_1", "m", Failure::kDrift);
   old.sha256 = "1";
@@ -322,6 +360,9 @@ TEST(Failures, AreListedWithTheirPlaces) {
   row.claim_class = "singular";
   EXPECT_EQ(words_of(render_failures({row}), "p_1").back(), "singular");
   EXPECT_EQ(render_failures({success("p_3", "m")}), "no run failed\n");
+  drifted.repetition = 12;
+  EXPECT_THAT(words_of(render_failures({drifted}), "p_2"),
+              ElementsAre("m", "12", "drifts", "9", "-", "-"));
 }
 
 TEST(TextTable, AlignsAndKeepsLongNamesApart) {

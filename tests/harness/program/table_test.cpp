@@ -169,6 +169,18 @@ TEST(Table, TheLastRunCountsAtThePlaceOfTheFirst) {
   EXPECT_LT(table.find(" one "), table.find(" two "));
 }
 
+TEST(Table, RepetitionsHaveRowsOfTheirOwn) {
+  TableRow first = success("a", "one");
+  first.repetition = 1;
+  TableRow second = failure("one", {Failure::kDrift});
+  second.repetition = 2;
+  const std::string table = render_table({first, second});
+  EXPECT_THAT(table, HasSubstr("+   one"));
+  EXPECT_THAT(table, HasSubstr("!   one"));
+  EXPECT_THAT(table, HasSubstr("repetition 2\n"));
+  EXPECT_THAT(table, Not(HasSubstr("repetition 1\n")));
+}
+
 TEST(Table, RunsOfAChangedScenarioFileStandApart) {
   TableRow old = success("a", "one");
   old.sha256 = "0123456789abcdef";

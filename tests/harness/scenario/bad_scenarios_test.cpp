@@ -173,7 +173,8 @@ TEST(BadScenarios, WaypointFilesAreRefusedWithTheirOwnLine) {
   EXPECT_EQ(refusal(directory, text), "way.csv: expected a file, got nothing there");
   std::filesystem::create_symlink("/etc/passwd", directory.path() / "way.csv");
   EXPECT_EQ(refusal(directory, text),
-            "s.yaml:14: task.path.file: expected a file in the scenario's directory, got way.csv");
+            "s.yaml:14: task.path.file: expected a file in the scenario's directory (unless "
+            "--allow-outside is given), got way.csv");
 }
 
 TEST(BadScenarios, WaypointFilesOfMotionsAreRefusedWithTheirOwnLine) {

@@ -35,6 +35,8 @@ TEST(WilsonInterval, IsTheSetOfSharesThatTheScoreTestKeeps) {
   expect_near(wilson_interval(10, 10), 0.7224672001371114, 1);
   expect_near(wilson_interval(1712, 2000), 0.8399302416150263, 0.8707048207207215);
   expect_near(wilson_interval(0, 0), 0, 1);
+  // The solutions of (p - 0.5)^2 = z^2 p (1 - p) / 5, by the formula for quadratic equations.
+  expect_near(wilson_interval(2.5, 5), 0.17042358064358776, 0.8295764193564122);
 }
 
 TEST(ShiftedGeometricMean, CountsFailuresAsThePenalty) {

@@ -22,7 +22,7 @@ std::string failure_table(const Tallies& tallies);
 /// What stood in the way of methods that gave up; empty if no run was asked.
 std::string why_table(const Tallies& tallies);
 
-/// Methods in pairs, on the scenarios to which both apply; empty if no two ever succeeded.
+/// Methods in pairs, on the scenarios to which both apply, each repetition by itself; empty if no two ever succeeded.
 std::string pair_table(const Tallies& tallies, const std::vector<TableRow>& rows);
 
 std::string accuracy_table(const Tallies& tallies);

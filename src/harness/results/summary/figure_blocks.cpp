@@ -57,6 +57,7 @@ std::string time_table(const Tallies& tallies) {
                    {"slowest", "[us]"},
                    {"in", "", true},
                    {"at", "tick"},
+                   {"repe-", "tition", false, true},
                    {"total", "[s]"}});
   tallies.fill(table, [](const Tally& tally) -> std::vector<std::string> {
     const auto pooled = [&tally](double share) {
@@ -75,6 +76,7 @@ std::string time_table(const Tallies& tallies) {
                         tally.slowest_counts ? "" : "~", figure(tally.slowest_s / kMicrosecond)),
             tally.slowest_scenario,
             timed ? std::to_string(tally.slowest_tick) : "-",
+            std::to_string(tally.slowest_repetition),
             figure(tally.total_s)};
   });
   return table.text();

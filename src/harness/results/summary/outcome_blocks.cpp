@@ -15,8 +15,9 @@ namespace {
 
 constexpr const char* kOther = "other";
 
-/// Whether a method succeeded, by scenario file, for the runs of one family and method.
-using Outcomes = std::map<std::pair<std::string, std::string>, bool>;
+/// Whether a method succeeded, by scenario file, its hash and repetition, for the runs of one family and
+/// method.
+using Outcomes = std::map<std::tuple<std::string, std::string, int>, bool>;
 
 struct FailureColumn {
   std::string name;  ///< as failure_class() says it
@@ -58,8 +59,10 @@ std::string success_table(const Tallies& tallies) {
   tallies.fill(
       table,
       [](const Tally& tally) -> std::vector<std::string> {
-        const auto [low, high] = wilson_interval(tally.successes, tally.runs);
         const bool ran = tally.runs > 0;
+        const auto problems = static_cast<double>(tally.problems.size());
+        const auto [low, high] =
+            wilson_interval(ran ? problems * tally.successes / tally.runs : 0, problems);
         return {std::to_string(tally.runs),
                 std::to_string(tally.not_applicable),
                 std::to_string(tally.successes),
@@ -144,10 +147,11 @@ std::string pair_table(const Tallies& tallies, const std::vector<TableRow>& rows
   std::map<std::pair<std::string, std::string>, Outcomes> outcomes;
   for (const TableRow& row : rows) {
     if (!row.applicable) continue;
-    outcomes[{family_of(row.scenario), row.variant}][{row.scenario, row.sha256}] = row.success;
+    outcomes[{family_of(row.scenario), row.variant}][{row.scenario, row.sha256, row.repetition}] =
+        row.success;
   }
   TextTable table({{"in pairs (A, B)", "", true},
-                   {"scenarios", ""},
+                   {"pairs", ""},
                    {"both", ""},
                    {"only A", ""},
                    {"only B", ""},
@@ -162,8 +166,8 @@ std::string pair_table(const Tallies& tallies, const std::vector<TableRow>& rows
         const Outcomes& of_b = outcomes[{family, methods[b]}];
         int counts[2][2] = {};
         int common = 0;
-        for (const auto& [scenario, success] : of_a) {
-          const auto other = of_b.find(scenario);
+        for (const auto& [run, success] : of_a) {
+          const auto other = of_b.find(run);
           if (other == of_b.end()) continue;
           ++common;
           ++counts[success][other->second];

@@ -22,6 +22,7 @@ void Tally::add(const TableRow& row) {
     return;
   }
   ++runs;
+  problems.insert({row.scenario, row.sha256, row.repetition > 0 ? "" : row.seed});
   if (!row.claim_holds && !no_verdict(row)) {
     ++claims_wrong;
     if (!row.disturbance.empty()) ++disturbed_claims_wrong;
@@ -59,6 +60,7 @@ void Tally::add_slowest(const TableRow& row) {
   slowest_s = row.slowest_s;
   slowest_scenario = row.scenario;
   slowest_tick = row.slowest_tick;
+  slowest_repetition = row.repetition;
   slowest_counts = row.against_times.empty();
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct Tally {
   int runs = 0;
   int not_applicable = 0;
   int successes = 0;
+  /// Runs that are not repetitions of each other: scenario file, its hash, and the seed outside of
+  /// campaigns.
+  std::set<std::tuple<std::string, std::string, std::string>> problems;
   int claims_wrong = 0;
   int disturbed_claims_wrong = 0;
   std::map<std::string, int> failures;  ///< by failure_class()
@@ -39,6 +43,7 @@ struct Tally {
   double slowest_s = TableRow::kNone;  ///< of all runs
   std::string slowest_scenario;
   int slowest_tick = 0;
+  int slowest_repetition = 0;  ///< 0 outside of campaigns
   bool slowest_counts = true;  ///< nothing speaks against the time
   bool times_count = true;
   bool includes_pipe = false;  ///< the times
