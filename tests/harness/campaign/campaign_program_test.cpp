@@ -123,7 +123,7 @@ TEST_F(CampaignTest, MergingInPlaceKeepsStaleRecordsAndDropsShardFiles) {
   run("out", {"--shard", "1/2"});
   run("out", {"--shard", "2/2"});
   EXPECT_EQ(run_bqsa_bench({"merge", path("out"), "--out", path("out")}).status, 0);
-  EXPECT_EQ(findings_of(runs_of("out")).size(), kRuns + 6);
+  EXPECT_EQ(findings_of(runs_of("out")).size(), kRuns + 3);
   EXPECT_FALSE(std::filesystem::exists(path("out/shards/1-of-2.jsonl")));
 }
 
