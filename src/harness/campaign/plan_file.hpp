@@ -14,7 +14,7 @@ namespace bqsa::harness {
 struct ListedRun {
   std::string key;
   std::string scenario;  ///< name
-  std::string variant;   ///< variant_name()
+  std::string variant;   ///< campaign_variant_name()
   int repetition = 1;
 };
 
