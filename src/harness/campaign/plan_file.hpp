@@ -21,7 +21,7 @@ inline constexpr std::size_t kMostPlanBytes = std::size_t{1} << 32U;
 struct ListedRun {
   std::string key;
   std::string scenario;  ///< name
-  std::string variant;   ///< variant_name()
+  std::string variant;   ///< campaign_variant_name()
   int repetition = 1;
 };
 

@@ -282,6 +282,21 @@ TEST(Plan, GeneratedScenariosThatWereChangedAreRefused) {
   }
 }
 
+TEST(Plan, AListOfHashesIsNotBelievedWhereTheGeneratorMakesAnother) {
+  const TestDirectory directory;
+  const fs::path out = directory.path() / "out";
+  make_plan(load(directory, generating(4)), out);
+  const std::string changed = content_of(out / "scenarios/planar_s7_00001.yaml") + "# changed\n";
+  const fs::path list = out / "scenarios/planar_s7.sha256";
+  const std::string hashes = content_of(list);
+  const std::string old = sha256_of(content_of(out / "scenarios/planar_s7_00001.yaml"));
+  std::ofstream(out / "scenarios/planar_s7_00001.yaml", std::ios::binary) << changed;
+  std::ofstream(list, std::ios::binary) << with(hashes, old, sha256_of(changed));
+  EXPECT_EQ(message_of(directory, [&] { make_plan(load(directory, generating(4)), out); }),
+            "out/scenarios/planar_s7_00001.yaml: expected no file or what is to be written, got "
+            "another one");
+}
+
 TEST(Plan, TellsHowManyScenariosAreDone) {
   const TestDirectory directory;
   write_scenarios(directory);
