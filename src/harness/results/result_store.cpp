@@ -92,7 +92,8 @@ void ResultStore::append(std::string_view record) {
   refuse(runs_file(directory_), ENOSPC);
 }
 
-std::vector<StoredLine> read_lines(const std::filesystem::path& file) {
+void for_each_line(const std::filesystem::path& file,
+                   const std::function<void(const StoredLine&)>& show) {
   std::error_code error;
   const bool regular = std::filesystem::is_regular_file(file, error);
   std::ifstream in;
@@ -101,12 +102,16 @@ std::vector<StoredLine> read_lines(const std::filesystem::path& file) {
     throw InputError(
         fmt::format("{}: cannot read: not a file, or not a readable one", file.string()));
   }
-  std::vector<StoredLine> lines;
   StoredLine line;
   while (std::getline(in, line.text)) {
     ++line.number;
-    if (!line.text.empty()) lines.push_back(line);
+    if (!line.text.empty()) show(line);
   }
+}
+
+std::vector<StoredLine> read_lines(const std::filesystem::path& file) {
+  std::vector<StoredLine> lines;
+  for_each_line(file, [&lines](const StoredLine& line) { lines.push_back(line); });
   return lines;
 }
 
