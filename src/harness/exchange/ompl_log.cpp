@@ -24,8 +24,8 @@ class SqliteNumbers {
   std::string text(const Cell& cell) {
     const auto* number = std::get_if<double>(&cell);
     if (number == nullptr) return cell_text(cell);
-    constexpr int kFewest = 17;  // from which on any reader that rounds well is right
-    constexpr int kMost = 25;
+    constexpr int kFewest = 17;  // from which on a reader that rounds well is right
+    constexpr int kMost = 20;
     std::string text = cell_text(cell);
     for (int digits = kFewest; digits <= kMost && read_.number({text}) != *number; ++digits) {
       text = fmt::format("{:.{}e}", *number, digits - 1);
