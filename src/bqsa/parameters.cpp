@@ -22,13 +22,13 @@ std::string joined(const std::vector<std::string>& words) {
 }
 
 double parse(const ParameterDeclaration& parameter, std::string_view text) {
-  const std::string got = "got '" + std::string(text) + "'";
+  const auto refuse = [&] {
+    throw ParameterError("parameter '" + parameter.name + "': expected " +
+                         acceptable_values(parameter) + ", got '" + std::string(text) + "'");
+  };
   if (!parameter.choices.empty()) {
     const auto found = std::find(parameter.choices.begin(), parameter.choices.end(), text);
-    if (found == parameter.choices.end()) {
-      throw ParameterError("parameter '" + parameter.name + "': expected one of " +
-                           joined(parameter.choices) + ", " + got);
-    }
+    if (found == parameter.choices.end()) refuse();
     return static_cast<double>(found - parameter.choices.begin());
   }
   double value = 0;
@@ -36,15 +36,19 @@ double parse(const ParameterDeclaration& parameter, std::string_view text) {
   const bool whole_text = result.ec == std::errc() && result.ptr == text.data() + text.size();
   if (!whole_text || !std::isfinite(value) || value < parameter.minimum ||
       value > parameter.maximum || (parameter.integer && value != std::floor(value))) {
-    throw ParameterError("parameter '" + parameter.name + "': expected a " +
-                         (parameter.integer ? "whole number" : "number") + " from " +
-                         shortest(parameter.minimum) + " to " + shortest(parameter.maximum) + " [" +
-                         parameter.unit + "], " + got);
+    refuse();
   }
   return value;
 }
 
 }  // namespace
+
+std::string acceptable_values(const ParameterDeclaration& parameter) {
+  if (!parameter.choices.empty()) return "one of " + joined(parameter.choices);
+  return std::string("a ") + (parameter.integer ? "whole number" : "number") + " from " +
+         shortest(parameter.minimum) + " to " + shortest(parameter.maximum) + " [" +
+         parameter.unit + "]";
+}
 
 ParameterDeclaration integer_parameter(std::string name, std::string unit, int default_value,
                                        int minimum, int maximum, std::string meaning) {

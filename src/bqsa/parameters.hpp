@@ -30,6 +30,9 @@ ParameterDeclaration integer_parameter(std::string name, std::string unit, int d
 ParameterDeclaration choice_parameter(std::string name, std::vector<std::string> choices,
                                       std::string meaning);
 
+/// What it may be set to, for messages: `a number from 0 to 1 [rad]`, `one of first, last`.
+std::string acceptable_values(const ParameterDeclaration& parameter);
+
 /// An unknown parameter or an unacceptable value; the message names it and says what was expected.
 struct ParameterError : std::invalid_argument {
   using std::invalid_argument::invalid_argument;

@@ -44,10 +44,11 @@ double JointSensors::normal() {
   return std::sqrt(-2 * std::log(radius)) * std::cos(2 * std::numbers::pi * turn);
 }
 
-std::string suffix_of(const Disturbance& disturbance, std::uint64_t seed) {
+std::string suffix_of(const Disturbance& disturbance, std::optional<std::uint64_t> seed) {
   std::string suffix;
   if (disturbance.joint_noise > 0) {
-    suffix = fmt::format("+noise={}+seed={}", disturbance.joint_noise, seed);
+    suffix = fmt::format("+noise={}", disturbance.joint_noise);
+    if (seed) suffix += fmt::format("+seed={}", *seed);
   }
   return disturbance.latency_ticks > 0 ? suffix + "+latency" : suffix;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -45,7 +46,7 @@ class JointSensors {
 };
 
 /// What is added to the name of a variant: `+noise=0.001+seed=1+latency`; empty if nothing disturbs.
-/// The seed is named with noise only, since nothing else depends on it.
-std::string suffix_of(const Disturbance& disturbance, std::uint64_t seed);
+/// The seed is named with noise only, since nothing else depends on it, and if it is given.
+std::string suffix_of(const Disturbance& disturbance, std::optional<std::uint64_t> seed);
 
 }  // namespace bqsa::harness

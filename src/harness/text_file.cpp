@@ -76,6 +76,19 @@ void write_text_file(const fs::path& file, std::string_view content) {
   StagedTextFile(file, content).commit();
 }
 
+bool write_new_text_file(const fs::path& file, std::string_view content) {
+  std::error_code unknown;
+  if (fs::symlink_status(file, unknown).type() == fs::file_type::not_found) {
+    write_text_file(file, content);
+    return true;
+  }
+  const bool other_size =
+      fs::is_regular_file(file, unknown) && fs::file_size(file, unknown) != content.size();
+  if (!other_size && read_text_file(file, content.size()) == content) return false;
+  throw InputError(
+      fmt::format("{}: expected no file or what is to be written, got another one", file.string()));
+}
+
 std::string excerpt(std::string_view text) {
   constexpr std::size_t kLongest = 60;
   std::string shown;

@@ -39,6 +39,11 @@ class StagedTextFile {
 /// @throws InputError naming the file if it cannot be written
 void write_text_file(const std::filesystem::path& file, std::string_view content);
 
+/// Likewise, but leaves a file that is there with just these bytes, and overwrites none with others.
+/// @return whether it was not there before
+/// @throws InputError naming the file if it has other bytes or cannot be written
+bool write_new_text_file(const std::filesystem::path& file, std::string_view content);
+
 /// What a message shows of text found in a file: at most 60 bytes, anything but printable ASCII
 /// as `\x07`.
 std::string excerpt(std::string_view text);

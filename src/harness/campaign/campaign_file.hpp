@@ -18,7 +18,11 @@ struct GeneratedScenarios {
   std::string family;
   std::uint64_t seed = 1;
   int count = 0;
+  std::filesystem::path robots = "robots";  ///< directory of robot files, for spatial arms
 };
+
+/// No campaign has more runs.
+inline constexpr int kMostRuns = 10'000'000;
 
 /// Of which runs the trajectory is stored.
 enum class KeptTrajectories { kAll, kFailures, kNone };

@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "harness/campaign/campaign_file.hpp"
+#include "harness/scenario/scenario.hpp"
 
 namespace bqsa::harness {
 
@@ -46,18 +48,30 @@ std::uint64_t run_seed(std::uint64_t campaign_seed, const PlannedScenario& scena
 /// of the running executable too.
 std::string program_identity(const std::vector<std::string>& out_of_tree);
 
-/// Key of a run: 32 hexadecimal digits of the SHA-256 of the bytes of the scenario, method with all its
-/// parameters (of an external one its command and the files that the command names), repetition, seed,
-/// disturbance, limits, budget and program.
-std::string run_key(const PlannedScenario& scenario, const MethodSpec& method, int repetition,
+/// What of a method a key depends on: its name and all its parameters; of an external one the command too,
+/// with the SHA-256 of the program that it starts and of the files that its words name.
+std::string method_identity(const MethodSpec& method);
+
+/// Key of a run: 32 hexadecimal digits of the SHA-256 of the bytes of the scenario, method, repetition,
+/// seed, disturbance, limits, budget and program.
+/// @param method   method_identity()
+/// @param program  program_identity()
+std::string run_key(const PlannedScenario& scenario, const std::string& method, int repetition,
                     std::uint64_t seed, const RunSettings& settings, const RunLimits& limits,
                     const std::string& program);
+
+struct PlanOptions {
+  LoadOptions load = {};
+  std::vector<std::string> out_of_tree = {};  ///< methods that were added to the stock program
+  /// Told how many scenarios of how many are loaded or generated.
+  std::function<void(std::size_t done, std::size_t all)> progress = {};
+};
 
 /// Loads every scenario once, generates those that are to be generated into `<directory>/scenarios`,
 /// and lists all runs.
 /// @throws InputError for a scenario that cannot be used, two of one name, or a directory that cannot be
 ///   written to
 Plan make_plan(const Campaign& campaign, const std::filesystem::path& directory,
-               const std::vector<std::string>& out_of_tree);
+               const PlanOptions& options = {});
 
 }  // namespace bqsa::harness

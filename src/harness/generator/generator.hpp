@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bqsa/method.hpp"
@@ -40,6 +41,12 @@ struct Family {
 
 const std::vector<Family>& families();
 
+/// One of families(), nullptr if none has the name.
+const Family* find_family(std::string_view name);
+
+/// For messages: `a, b, c`.
+std::string family_names();
+
 /// Why something drawn was thrown away.
 enum class Filter {
   kReach,          ///< an arm and path: the path leaves the shell that it has to stay in
@@ -70,11 +77,14 @@ class Rejections {
 };
 
 struct GeneratedScenario {
-  std::string name;  ///< `<family>_s<seed>_<index>`, the index of five digits
+  std::string name;  ///< generated_name()
   std::string yaml;  ///< the file
   /// A trajectory that the judge calls a success; without rows if the family has no witnesses.
   Trajectory witness = {};
 };
+
+/// `<family>_s<seed>_<index>`, the index of five digits.
+std::string generated_name(const Family& family, std::uint64_t seed, int index);
 
 /// Scenario `index` of a family and seed: always the same bytes, whatever else is generated.
 /// @param spatial_arms  for a spatial family, used in turn; else may be empty

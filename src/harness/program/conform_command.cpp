@@ -4,8 +4,8 @@
 
 #include "harness/conformance.hpp"
 #include "harness/program/commands.hpp"
-#include "harness/program/scenario_files.hpp"
 #include "harness/scenario/scenario.hpp"
+#include "harness/scenario_files.hpp"
 
 namespace bqsa::harness {
 namespace {

@@ -13,31 +13,10 @@ namespace bqsa::harness {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
-
-const Family& family_of(const std::string& name) {
-  std::string known;
-  for (const Family& family : families()) {
-    if (family.name == name) return family;
-    known += (known.empty() ? "" : ", ") + family.name;
-  }
-  throw InputError(fmt::format("--family: expected one of {}, got {}", known, excerpt(name)));
-}
-
-/// Whether the file is there with just these bytes; other bytes are not overwritten.
-bool is_there(const fs::path& file, const std::string& text) {
-  std::error_code unknown;
-  if (fs::symlink_status(file, unknown).type() == fs::file_type::not_found) return false;
-  if (read_text_file(file, kMaxBytes) == text) return true;
+const Family& chosen_family(const std::string& name) {
+  if (const Family* family = find_family(name)) return *family;
   throw InputError(
-      fmt::format("{}: expected no file or what is to be written, got another one", file.string()));
-}
-
-/// Whether it was not there before.
-bool write_new(const fs::path& file, const std::string& text) {
-  if (is_there(file, text)) return false;
-  write_text_file(file, text);
-  return true;
+      fmt::format("--family: expected one of {}, got {}", family_names(), excerpt(name)));
 }
 
 std::string counted(const Rejections& rejections, std::initializer_list<Filter> filters) {
@@ -51,7 +30,7 @@ std::string counted(const Rejections& rejections, std::initializer_list<Filter> 
 }  // namespace
 
 Status generate_command(const GenerateOptions& options, const Console& console) {
-  const Family& family = family_of(options.family);
+  const Family& family = chosen_family(options.family);
   if (options.witnesses && !family.witnesses) {
     throw InputError(
         fmt::format("--witnesses: expected a family that has them, got {}", family.name));
@@ -68,10 +47,10 @@ Status generate_command(const GenerateOptions& options, const Console& console) 
   int there = 0;
   for (int index = 0; index < options.count; ++index) {
     const GeneratedScenario scenario = generate(family, options.seed, index, arms, rejections);
-    there += !write_new(options.directory / (scenario.name + ".yaml"), scenario.yaml);
+    there += !write_new_text_file(options.directory / (scenario.name + ".yaml"), scenario.yaml);
     if (options.witnesses) {
-      write_new(options.directory / (scenario.name + ".witness.csv"),
-                trajectory_text(scenario.witness));
+      write_new_text_file(options.directory / (scenario.name + ".witness.csv"),
+                          trajectory_text(scenario.witness));
     }
     if (console.terminal) {
       console.err << fmt::format("\r\033[K{} of {}", index + 1, options.count) << std::flush;

@@ -5,8 +5,8 @@
 #include "harness/generator/generator.hpp"
 #include "harness/program/commands.hpp"
 #include "harness/program/external_methods.hpp"
-#include "harness/program/scenario_files.hpp"
 #include "harness/scenario/scenario.hpp"
+#include "harness/scenario_files.hpp"
 
 namespace bqsa::harness {
 namespace {

@@ -11,8 +11,8 @@
 #include "harness/program/commands.hpp"
 #include "harness/program/external_methods.hpp"
 #include "harness/program/report.hpp"
-#include "harness/program/scenario_files.hpp"
 #include "harness/results/pair_run.hpp"
+#include "harness/scenario_files.hpp"
 
 namespace bqsa::harness {
 namespace {

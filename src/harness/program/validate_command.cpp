@@ -3,8 +3,8 @@
 #include <ostream>
 
 #include "harness/program/commands.hpp"
-#include "harness/program/scenario_files.hpp"
 #include "harness/scenario/scenario.hpp"
+#include "harness/scenario_files.hpp"
 
 namespace bqsa::harness {
 

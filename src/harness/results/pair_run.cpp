@@ -54,7 +54,7 @@ StoredRun run_pair(const Scenario& scenario, const Judge& judge, const MethodSpe
     Judgement judgement = judge.judge(outcome.trajectory);
     add_conduct(outcome, judgement);
     const std::string file =
-        ResultStore::trajectory_file(problem.name, run_name(method, circumstances.settings));
+        ResultStore::trajectory_file(problem.name, run_name(method, circumstances));
     try {
       if (circumstances.store_trajectories) {
         staged = store.stage_trajectory(file, outcome.trajectory);

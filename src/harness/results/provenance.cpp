@@ -5,7 +5,10 @@
 #include <stdlib.h>
 #include <sys/utsname.h>
 
+#include <algorithm>
+#include <charconv>
 #include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <fstream>
 #include <limits>
@@ -82,6 +85,19 @@ MachineState machine_state() {
   state.os = operating_system();
   state.date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   return state;
+}
+
+std::string host_name() {
+  utsname system{};
+  return uname(&system) == 0 ? system.nodename : kUnknown;
+}
+
+int restart_count() {
+  const char* const text = std::getenv("SLURM_RESTART_COUNT");
+  int count = 0;
+  if (text == nullptr) return count;
+  std::from_chars(text, text + std::strlen(text), count);
+  return std::max(count, 0);
 }
 
 std::string version_text(const std::vector<std::string>& out_of_tree) {

@@ -8,10 +8,13 @@
 
 namespace bqsa::harness {
 
+/// Commit of sources outside a git repository.
+inline constexpr const char* kUnknownCommit = "unknown";
+
 /// Fixed when the program is built. The commit is that of the sources at the time of the build.
 struct BuildInfo {
   std::string version;  ///< of the program
-  std::string commit;   ///< 40 hexadecimal digits, or "unknown" outside a git repository
+  std::string commit;   ///< 40 hexadecimal digits, or kUnknownCommit
   bool dirty = false;   ///< tracked files differed from the commit
   std::string compiler;
   std::string build_type;
@@ -37,6 +40,12 @@ inline constexpr const char* kNotASuccess = "not judged a success";
 
 const BuildInfo& build_info();
 MachineState machine_state();
+
+/// As the system calls itself.
+std::string host_name();
+
+/// How often Slurm has started this job anew, by SLURM_RESTART_COUNT; 0 outside of Slurm.
+int restart_count();
 
 /// `0.1.0 (commit 1a2b3c4d5e, modified)`, as `--version` prints it; of a program with methods out of
 /// tree `..., with a, b out of tree` follows.

@@ -35,7 +35,7 @@ Json problem_json(const Problem& problem) {
           {"link_radius_m", problem.link_radius}};
 }
 
-Json method_json(const MethodSpec& method, const RunSettings& settings) {
+Json method_json(const MethodSpec& method, const Circumstances& circumstances) {
   Json parameters = Json::object();
   for (const ParameterDeclaration& declared : method.entry.parameters) {
     if (declared.choices.empty()) {
@@ -45,9 +45,9 @@ Json method_json(const MethodSpec& method, const RunSettings& settings) {
     }
   }
   return {{"name", method.entry.name},
-          {"variant", variant_name(method, settings)},
+          {"variant", variant_name(method, circumstances)},
           {"changed", changed_parameters(method.parameters)},
-          {"seed", method.entry.capabilities.plans ? Json(settings.seed) : Json()},
+          {"seed", method.entry.capabilities.plans ? Json(circumstances.settings.seed) : Json()},
           {"parameters", parameters}};
 }
 
@@ -179,7 +179,10 @@ Json provenance_json(const MethodEntry& method, const MachineState& machine,
                      const Circumstances& circumstances) {
   Json provenance = build_json(build_info());
   provenance.update(machine_json(machine));
-  provenance.update(Json{{"seed", circumstances.settings.seed},
+  provenance.update(Json{{"host", host_name()},
+                         {"restarts", restart_count()},
+                         {"jobs", circumstances.jobs},
+                         {"seed", circumstances.settings.seed},
                          {"plan_budget_s", circumstances.settings.plan_budget_s},
                          {"isolated", !circumstances.in_process},
                          {"wall_limit_s", circumstances.limits.wall_s},
@@ -195,12 +198,20 @@ Json disturbance_json(const Disturbance& disturbance) {
           {"latency_ticks", disturbance.latency_ticks}};
 }
 
-Json head_json(const Scenario& scenario, const MethodSpec& method, const RunSettings& settings) {
+/// null for a run that is not of a campaign.
+Json campaign_json(const std::optional<CampaignPlace>& place) {
+  if (!place) return nullptr;
+  return {{"name", place->campaign}, {"key", place->key}, {"repetition", place->repetition}};
+}
+
+Json head_json(const Scenario& scenario, const MethodSpec& method,
+               const Circumstances& circumstances) {
   return {{"schema", "bqsa-run/1"},
           {"scenario", scenario_json(scenario)},
           {"problem", problem_json(scenario.problem)},
-          {"method", method_json(method, settings)},
-          {"disturbance", disturbance_json(settings.disturbance)}};
+          {"method", method_json(method, circumstances)},
+          {"campaign", campaign_json(circumstances.place)},
+          {"disturbance", disturbance_json(circumstances.settings.disturbance)}};
 }
 
 /// Text that is not UTF-8, in a path say, is replaced rather than refused.
@@ -210,15 +221,25 @@ std::string one_line(const Json& record) {
 
 }  // namespace
 
-std::string variant_name(const MethodSpec& method, const RunSettings& settings) {
+std::string variant_name(const MethodSpec& method, const Circumstances& circumstances) {
+  const RunSettings& settings = circumstances.settings;
+  if (circumstances.place) return campaign_variant_name(method, settings.disturbance);
   return variant_name(method) + suffix_of(settings.disturbance, settings.seed);
 }
 
-std::string run_name(const MethodSpec& method, const RunSettings& settings) {
-  std::string name = variant_name(method, settings);
-  if (method.entry.capabilities.plans && settings.seed != RunSettings{}.seed)
-    name += fmt::format("+seed={}", settings.seed);
-  return name;
+std::string campaign_variant_name(const MethodSpec& method, const Disturbance& disturbance) {
+  return variant_name(method) + suffix_of(disturbance, std::nullopt);
+}
+
+std::string run_name(const MethodSpec& method, const Circumstances& circumstances) {
+  constexpr std::size_t kKeyDigits = 8;
+  const std::string name = variant_name(method, circumstances);
+  if (circumstances.place) {
+    return fmt::format("{}+{}", name, circumstances.place->key.substr(0, kKeyDigits));
+  }
+  const std::uint64_t seed = circumstances.settings.seed;
+  const bool seeded = method.entry.capabilities.plans && seed != RunSettings{}.seed;
+  return seeded ? fmt::format("{}+seed={}", name, seed) : name;
 }
 
 std::string run_record(const Scenario& scenario, const MethodSpec& method,
@@ -226,7 +247,7 @@ std::string run_record(const Scenario& scenario, const MethodSpec& method,
                        const Judgement& judgement, const MachineState& machine,
                        const Circumstances& circumstances, const std::string& trajectory_file) {
   const bool success = judgement.success();
-  Json record = head_json(scenario, method, circumstances.settings);
+  Json record = head_json(scenario, method, circumstances);
   record["claimed"] = claimed_json(scenario.problem, outcome, diagnosis);
   record["judged"] = judged_json(scenario.problem, judgement);
   record["claim_holds"] = claim_holds(outcome.claim, success);
@@ -241,7 +262,7 @@ std::string run_record(const Scenario& scenario, const MethodSpec& method,
 std::string not_applicable_record(const Scenario& scenario, const MethodSpec& method,
                                   const std::string& why, const MachineState& machine,
                                   const Circumstances& circumstances) {
-  Json record = head_json(scenario, method, circumstances.settings);
+  Json record = head_json(scenario, method, circumstances);
   record["claimed"] = {{"status", "not applicable"}, {"message", why}};
   record["judged"] = nullptr;
   record["trajectory"] = nullptr;

@@ -36,12 +36,15 @@ struct Circumstances {
 };
 
 /// Name of a method as it ran, in records, tables and file names: variant_name(), and what disturbed
-/// it.
-std::string variant_name(const MethodSpec& method, const RunSettings& settings);
+/// it; in a campaign campaign_variant_name().
+std::string variant_name(const MethodSpec& method, const Circumstances& circumstances);
+
+/// The same without the seed of the noise, which in a campaign differs by scenario and repetition.
+std::string campaign_variant_name(const MethodSpec& method, const Disturbance& disturbance);
 
 /// Name of the file of a run's trajectory: variant_name(), and the seed of a planning method where it
-/// is not the default.
-std::string run_name(const MethodSpec& method, const RunSettings& settings);
+/// is not the default; in a campaign variant_name() and the first 8 digits of the run's key.
+std::string run_name(const MethodSpec& method, const Circumstances& circumstances);
 
 /// A run that took place. Without a line break at the end.
 /// @param diagnosis        of a run in which a reactive method gave up

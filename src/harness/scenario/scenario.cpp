@@ -1,10 +1,8 @@
 #include "harness/scenario/scenario.hpp"
 
 #include <fmt/format.h>
-#include <sha256.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -18,6 +16,7 @@
 #include "harness/scenario/units.hpp"
 #include "harness/scenario/waypoint_file.hpp"
 #include "harness/scenario/yaml_value.hpp"
+#include "harness/sha256.hpp"
 #include "harness/text_file.hpp"
 
 namespace bqsa::harness {
@@ -28,12 +27,6 @@ constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
 
 constexpr double kDefaultTolerance = 1e-3;  // [m]
 constexpr double kLeastTolerance = 1e-9;    // [m]
-
-std::string sha256_of(const std::string& bytes) {
-  char digest[SHA256_DIGEST_STRING_LENGTH];
-  SHA256Data(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(), digest);
-  return digest;
-}
 
 JointVector read_start(const YamlValue& value, const Units& units, int joints) {
   const std::string expected = fmt::format("a list of {} angles, one a joint", joints);
@@ -54,7 +47,7 @@ std::function<Eigen::Vector3d(double)> timed(const Task& task) {
 
 }  // namespace
 
-Scenario load_scenario(const std::filesystem::path& file) {
+Scenario load_scenario(const std::filesystem::path& file, const LoadOptions& options) {
   const std::string text = read_text_file(file, kMaxBytes);
   const YamlValue top = YamlValue::parse(file.string(), text);
   top.get("schema", "bqsa-scenario/1").choice({"bqsa-scenario/1"});
@@ -81,7 +74,7 @@ Scenario load_scenario(const std::filesystem::path& file) {
   const YamlValue start_value = top.get("start", "a list of joint angles");
   const JointVector start = read_start(start_value, units, robot.chain.joints());
   const YamlValue task_value = top.get("task", "a mapping of path, timing");
-  NamedFiles files(file.parent_path());
+  NamedFiles files(file.parent_path(), options.allow_outside);
   const Task task = read_task(task_value, units, dimension, files);
   const std::optional<YamlValue> obstacles = top.find("obstacles");
 

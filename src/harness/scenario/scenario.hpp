@@ -20,8 +20,12 @@ struct Scenario {
   Problem problem;  ///< its name is the scenario's
 };
 
+struct LoadOptions {
+  bool allow_outside = false;  ///< the files that a scenario names may lie outside its directory
+};
+
 /// Reads and validates one scenario file, converting to SI units.
 /// @throws InputError naming file, line, key, what was expected and what was found
-Scenario load_scenario(const std::filesystem::path& file);
+Scenario load_scenario(const std::filesystem::path& file, const LoadOptions& options = {});
 
 }  // namespace bqsa::harness

@@ -17,17 +17,14 @@ constexpr std::size_t kMaxBytesInAll = std::size_t{1} << 26;
 constexpr std::size_t kMaxWaypoints = 100'000;
 constexpr std::size_t kMaxBytesOfANumber = 26;  // all digits, sign, exponent, comma, line break
 
-/// The file that a scenario names, which must lie in the scenario's directory or below.
-fs::path file_beside(const YamlValue& value, const fs::path& directory) {
-  const fs::path name = value.text();
+/// Whether a file, symbolic links and `..` resolved, lies in a directory or below.
+bool lies_in(const fs::path& directory, const fs::path& name) {
   std::error_code error;
   const fs::path home = fs::weakly_canonical(directory.empty() ? "." : directory, error);
   const fs::path target = error ? fs::path() : fs::weakly_canonical(home / name, error);
   const fs::path inside = error ? fs::path() : target.lexically_relative(home);
-  if (error || name.is_absolute() || inside.empty() || inside == "." || *inside.begin() == "..") {
-    value.fail("a file in the scenario's directory");
-  }
-  return directory / name;
+  return !error && !name.is_absolute() && !inside.empty() && inside != "." &&
+         *inside.begin() != "..";
 }
 
 std::size_t most_columns(const std::vector<std::string>& headers) {
@@ -50,7 +47,11 @@ NumericTable read_table(const YamlValue& value, NamedFiles& files,
 }  // namespace
 
 NamedFiles::File NamedFiles::read(const YamlValue& value, std::size_t max_bytes) {
-  const fs::path path = file_beside(value, directory_);
+  const fs::path name = value.text();
+  if (!allow_outside_ && !lies_in(directory_, name)) {
+    value.fail("a file in the scenario's directory (unless --allow-outside is given)");
+  }
+  const fs::path path = directory_ / name;
   File file{path.string(), read_text_file(path, max_bytes)};
   if (bytes_.size() + file.text.size() > kMaxBytesInAll) {
     value.fail(fmt::format("files of at most {} bytes in all", kMaxBytesInAll),

@@ -18,8 +18,10 @@ namespace bqsa::harness {
 /// Reads the files that a scenario names, and keeps their bytes.
 class NamedFiles {
  public:
-  /// @param directory  of the scenario file; the others are found from there and lie in it
-  explicit NamedFiles(std::filesystem::path directory) : directory_(std::move(directory)) {}
+  /// @param directory      of the scenario file; the others are found from there and lie in it
+  /// @param allow_outside  they may also lie elsewhere
+  explicit NamedFiles(std::filesystem::path directory, bool allow_outside = false)
+      : directory_(std::move(directory)), allow_outside_(allow_outside) {}
 
   /// What a file is called in messages, and its bytes.
   struct File {
@@ -27,7 +29,7 @@ class NamedFiles {
     std::string text;
   };
 
-  /// The file that a value names. Refuses one outside the directory, one of more than `max_bytes`,
+  /// The file that a value names. Refuses one outside the directory unless that is allowed, one of more than `max_bytes`,
   /// and more than 64 MiB in all.
   File read(const YamlValue& value, std::size_t max_bytes);
 
@@ -36,6 +38,7 @@ class NamedFiles {
 
  private:
   std::filesystem::path directory_;
+  bool allow_outside_;
   std::string bytes_;
 };
 

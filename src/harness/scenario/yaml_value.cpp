@@ -151,6 +151,8 @@ void YamlValue::expect_keys(const std::vector<std::string>& known) const {
   }
 }
 
+bool YamlValue::is_mapping() const { return node_.IsMap(); }
+
 bool YamlValue::has(const std::string& key) const { return find(key).has_value(); }
 
 YamlValue YamlValue::get(const std::string& key, const std::string& expected) const {
@@ -168,6 +170,17 @@ std::optional<YamlValue> YamlValue::find(const std::string& key) const {
     return YamlValue(file_, entry.second, place.Mark().line + 1, path_of(key));
   }
   return std::nullopt;
+}
+
+std::vector<std::pair<std::string, YamlValue>> YamlValue::members(
+    const std::vector<std::string>& known) const {
+  expect_keys(known);
+  std::vector<std::pair<std::string, YamlValue>> members;
+  for (const auto& entry : node_) {
+    const std::string& key = entry.first.Scalar();
+    members.emplace_back(key, *find(key));
+  }
+  return members;
 }
 
 std::vector<YamlValue> YamlValue::list(const std::string& expected) const {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "harness/input_error.hpp"
@@ -37,6 +38,8 @@ class YamlValue {
   /// other.
   void expect_keys(const std::vector<std::string>& known) const;
 
+  bool is_mapping() const;
+
   /// Whether this is a mapping that has the key.
   bool has(const std::string& key) const;
 
@@ -46,6 +49,10 @@ class YamlValue {
 
   /// The value of a key if this is a mapping that has it.
   std::optional<YamlValue> find(const std::string& key) const;
+
+  /// Keys and values as they stand in the file, of a mapping that expect_keys() takes.
+  std::vector<std::pair<std::string, YamlValue>> members(
+      const std::vector<std::string>& known) const;
 
   /// The elements of a list; anything else is refused, `expected` saying what should stand there.
   std::vector<YamlValue> list(const std::string& expected) const;

@@ -1,4 +1,4 @@
-#include "harness/program/scenario_files.hpp"
+#include "harness/scenario_files.hpp"
 
 #include <fmt/core.h>
 
