@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,13 +14,6 @@ namespace bqsa::harness {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string host_name() {
-  constexpr std::size_t kLongest = 256;
-  std::string name(kLongest, '\0');
-  if (gethostname(name.data(), name.size() - 1) != 0) return "unknown";
-  return name.c_str();
-}
 
 Json ours_json(const MeasurementOrigin& origin, std::size_t processes) {
   Json ours = {{"schema", kMeasurementsSchema},

@@ -1,10 +1,13 @@
 #include <fmt/core.h>
 
 #include <array>
+#include <optional>
 #include <ostream>
+#include <string>
 #include <system_error>
-#include <utility>
+#include <vector>
 
+#include "harness/campaign/plan_file.hpp"
 #include "harness/exchange/ompl_log.hpp"
 #include "harness/exchange/planner_arena.hpp"
 #include "harness/exchange/runs_benchmark.hpp"
@@ -46,6 +49,14 @@ void check_targets(const ExportOptions& options) {
   }
 }
 
+/// Keys of a campaign's plan, in its order; nothing for other results.
+std::optional<std::vector<std::string>> planned_keys(const fs::path& directory) {
+  if (!has_plan(directory)) return std::nullopt;
+  std::vector<std::string> keys;
+  for (const ListedRun& run : read_plan(directory).runs) keys.push_back(run.key);
+  return keys;
+}
+
 std::string counted(std::size_t count, const char* thing) {
   return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
 }
@@ -85,7 +96,7 @@ void write_formats(const ExportedRuns& runs, const ExportOptions& options, std::
 
 Status export_command(const ExportOptions& options, const Console& console) {
   check_targets(options);
-  const ExportedRuns runs = read_exported_runs(options.directory, std::nullopt);
+  const ExportedRuns runs = read_exported_runs(options.directory, planned_keys(options.directory));
   for (const std::string& line : runs.bad_lines) console.error(line);
   if (runs.experiments.empty()) {
     throw InputError(
