@@ -204,8 +204,8 @@ const char* RunColumn::sql_type() const {
 std::span<const RunColumn> run_columns() { return kColumns; }
 
 const std::vector<Enumeration>& enumerations() {
-  static const std::vector<Enumeration> all = make_enumerations();
-  return all;
+  static const std::vector<Enumeration> kAll = make_enumerations();
+  return kAll;
 }
 
 const std::vector<std::string>& values_of(const RunColumn& column) {

@@ -133,6 +133,7 @@ std::string runs_csv(const ExportedRuns& runs) {
       std::vector<std::string> head = scenario_fields(experiment.scenario);
       head.insert(head.end(), {method.name, method.variant, method.changed});
       std::vector<std::string> values;
+      values.reserve(parameters.size());
       for (const std::string& name : parameters) values.push_back(parameter_text(method, name));
       for (const ExportedRun& run : configuration.runs) {
         std::vector<std::string> fields = head;

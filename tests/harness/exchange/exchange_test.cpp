@@ -6,9 +6,8 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
+#include <cstdlib>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "harness/exchange/arena_experiment.hpp"
@@ -104,7 +103,7 @@ TEST(CellText, ReadsBackAsTheSameNumber) {
   EXPECT_EQ(cell_text(std::numeric_limits<std::int64_t>::min()), "-9223372036854775808");
   EXPECT_EQ(cell_text(std::string("a; b")), "a; b");
   for (const double number : {0.1, 1.0 / 3, 5e-324, 1.7976931348623157e308, -2.5e-7}) {
-    EXPECT_EQ(std::stod(cell_text(number) + " "), number);
+    EXPECT_EQ(std::strtod(cell_text(number).c_str(), nullptr), number);
   }
 }
 
@@ -172,7 +171,7 @@ TEST(ReadExportedRuns, KeepsEveryRunOfTheReferenceResults) {
       }
     }
   }
-  EXPECT_EQ(successes, 37);
+  EXPECT_EQ(successes, 38);
 }
 
 TEST(WriteOmplLogs, WithoutAPlaceIsRefused) {
