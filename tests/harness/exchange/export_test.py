@@ -164,9 +164,9 @@ class Database(ExportTest):
 
     def test_an_experiment_has_what_its_runs_agree_on(self):
         first, second = record(), record("qp")
-        second["provenance"].update(host="other", version="0.2.0", wall_limit_s=600.0, seed=7,
+        second["provenance"].update(host="other", version="0.2.0", seed=7,
                                     date="2020-01-01T00:00:00Z")
-        first["provenance"].update(host="one", memory_limit_bytes=2**30)
+        first["provenance"].update(host="one", wall_limit_s=600.0, memory_limit_bytes=2**30)
         write(self.results, [first, second])
         row = self.database().execute("SELECT * FROM experiments").fetchone()
         self.assertEqual((row["hostname"], row["version"], row["seed"], row["date"]),
