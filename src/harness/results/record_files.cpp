@@ -45,6 +45,7 @@ std::vector<std::filesystem::path> record_files(const std::filesystem::path& dir
   }
   std::sort(shards.begin(), shards.end());
   std::vector<std::filesystem::path> files;
+  files.reserve(shards.size() + 1);
   for (const auto& [shard, file] : shards) files.push_back(file);
   const std::filesystem::path runs = runs_file(directory);
   if (files.empty() || std::filesystem::exists(runs, none)) files.push_back(runs);
