@@ -1,7 +1,5 @@
 #include "harness/campaign/stored_rows.hpp"
 
-#include <fmt/core.h>
-
 #include <string>
 #include <unordered_set>
 
@@ -10,10 +8,7 @@
 namespace bqsa::harness {
 
 StoredRows stored_rows(const std::filesystem::path& directory) {
-  if (record_files(directory).empty()) {
-    throw InputError(fmt::format("{}: cannot read: not a file, or not a readable one",
-                                 runs_file(directory).string()));
-  }
+  required_record_files(directory);
   const bool in_campaign = has_plan(directory);
   std::unordered_set<std::string> planned;
   if (in_campaign) {

@@ -123,6 +123,19 @@ Status list_command(const std::vector<MethodEntry>& methods, const std::filesyst
 Status show_command(const std::filesystem::path& directory, const ReportOptions& report,
                     const Console& console);
 
+struct ExportOptions {
+  std::filesystem::path directory;
+  std::filesystem::path ompl_log;  ///< `*.log`, or a directory; empty: not written, as the others
+  std::filesystem::path planner_arena;
+  std::filesystem::path csv;
+  std::filesystem::path google_benchmark;
+};
+
+/// Writes the runs of a results directory in the formats of others; each file appears whole or not at all.
+/// Lines that are not records are reported and left out.
+/// @throws InputError if no format or no run is there, or for a file that cannot be written
+Status export_command(const ExportOptions& options, const Console& console);
+
 struct StepOptions {
   std::filesystem::path scenario;
   LoadOptions load;

@@ -19,6 +19,7 @@ struct CommandLine {
   std::vector<std::string> externals;  ///< `NAME=COMMAND`
   RunOptions run;
   GenerateOptions generate;
+  ExportOptions exported;
   StepOptions step;
   ConformOptions conform;
   FiguresOptions figures;

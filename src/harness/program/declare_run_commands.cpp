@@ -192,6 +192,24 @@ void declare_show(CLI::App& app, CommandLine& line) {
   });
 }
 
+void declare_export(CLI::App& app, CommandLine& line) {
+  CLI::App* command =
+      add_command(app, "export", "Write runs in the formats of others (docs/exchange.md)");
+  command->add_option("DIR", line.exported.directory, "Results directory")->required();
+  command->add_option("--ompl-log", line.exported.ompl_log,
+                      "OMPL's benchmark log: a file *.log for one scenario, else a directory");
+  command->add_option("--planner-arena", line.exported.planner_arena,
+                      "Planner Arena's SQLite database, with columns and tables of our own");
+  command->add_option("--csv", line.exported.csv, "A row a run, all figures");
+  command->add_option("--google-benchmark", line.exported.google_benchmark,
+                      "Times of successes as Google Benchmark's JSON");
+  command->callback([&line] {
+    line.command = [&line](const Console& console) {
+      return export_command(line.exported, console);
+    };
+  });
+}
+
 void declare_step(CLI::App& app, CommandLine& line) {
   CLI::App* step =
       add_command(app, "step", "Repeat one tick of a method: what it does, how long it takes");
@@ -319,6 +337,7 @@ void declare_run_commands(CLI::App& app, CommandLine& line) {
   declare_missing(app, line);
   declare_merge(app, line);
   declare_show(app, line);
+  declare_export(app, line);
   declare_step(app, line);
   declare_conform(app, line);
   declare_judge(app, line);

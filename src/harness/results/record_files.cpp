@@ -1,5 +1,7 @@
 #include "harness/results/record_files.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <optional>
@@ -7,6 +9,7 @@
 #include <string_view>
 #include <system_error>
 #include <tuple>
+#include <utility>
 
 #include "harness/results/result_store.hpp"
 
@@ -53,6 +56,15 @@ std::vector<std::filesystem::path> record_files(const std::filesystem::path& dir
   std::vector<std::filesystem::path> files;
   if (std::filesystem::exists(runs_file(directory), none)) files.push_back(runs_file(directory));
   for (const auto& [shard, file] : shards) files.push_back(file);
+  return files;
+}
+
+std::vector<std::filesystem::path> required_record_files(const std::filesystem::path& directory) {
+  std::vector<std::filesystem::path> files = record_files(directory);
+  if (files.empty()) {
+    throw InputError(fmt::format("{}: cannot read: not a file, or not a readable one",
+                                 runs_file(directory).string()));
+  }
   return files;
 }
 

@@ -101,7 +101,8 @@ std::unique_ptr<StagedTextFile> stage_trajectory(const std::filesystem::path& di
   return std::make_unique<StagedTextFile>(place, trajectory_text(trajectory), durability);
 }
 
-std::vector<StoredLine> read_lines(const std::filesystem::path& file) {
+void for_each_line(const std::filesystem::path& file,
+                   const std::function<void(const StoredLine&)>& show) {
   std::error_code error;
   const bool regular = std::filesystem::is_regular_file(file, error);
   std::ifstream in;
@@ -110,12 +111,16 @@ std::vector<StoredLine> read_lines(const std::filesystem::path& file) {
     throw InputError(
         fmt::format("{}: cannot read: not a file, or not a readable one", file.string()));
   }
-  std::vector<StoredLine> lines;
   StoredLine line;
   while (std::getline(in, line.text)) {
     ++line.number;
-    if (!line.text.empty()) lines.push_back(line);
+    if (!line.text.empty()) show(line);
   }
+}
+
+std::vector<StoredLine> read_lines(const std::filesystem::path& file) {
+  std::vector<StoredLine> lines;
+  for_each_line(file, [&lines](const StoredLine& line) { lines.push_back(line); });
   return lines;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -63,8 +64,12 @@ struct StoredLine {
 
 std::filesystem::path runs_file(const std::filesystem::path& directory);
 
-/// All lines that are not empty, whole or not.
+/// Shows all lines that are not empty, whole or not, one after the other.
 /// @throws InputError if there is no such file or it cannot be read
+void for_each_line(const std::filesystem::path& file,
+                   const std::function<void(const StoredLine&)>& show);
+
+/// The lines of for_each_line().
 std::vector<StoredLine> read_lines(const std::filesystem::path& file);
 
 }  // namespace bqsa::harness

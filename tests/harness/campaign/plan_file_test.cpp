@@ -22,8 +22,8 @@ Plan small_plan() {
   return plan;
 }
 
-const char *const kText =
-                      R"({"schema":"bqsa-plan/1","campaign":"small","program":"0.1.0, commit x","runs":3}
+const char* const kText =
+    R"({"schema":"bqsa-plan/1","campaign":"small","program":"0.1.0, commit x","runs":3}
 {"key":"k1","scenario":"a","variant":"plain+noise=0.001","repetition":1}
 {"key":"k2","scenario":"a","variant":"tuned@91a23648+noise=0.001","repetition":1}
 {"key":"k3","scenario":"b","variant":"plain+noise=0.001","repetition":2}
