@@ -4,7 +4,6 @@
 
 #include <fmt/core.h>
 #include <gnu/libc-version.h>
-#include <hwy/highway.h>
 #include <sys/utsname.h>
 
 #include <CLI/CLI.hpp>
@@ -41,11 +40,10 @@ void print_build() {
                                       {"glibc", gnu_get_libc_version()},
                                       {"libstdc++", std::to_string(__GLIBCXX__)}};
   for (const auto& [library, version] : build.libraries) {
-    const bool has_code_in_kernels = library == "Eigen" || library == "FCL";
+    const bool has_code_in_kernels =
+        library == "Eigen" || library == "Highway" || library == "FCL" || library == "libccd";
     if (has_code_in_kernels) toolchain[library] = version;
   }
-  toolchain["libccd"] = BQSA_CCD_VERSION;
-  toolchain["Highway"] = fmt::format("{}.{}.{}", HWY_MAJOR, HWY_MINOR, HWY_PATCH);
   toolchain["instruction_set"] = instruction_set().name;
   const nlohmann::ordered_json text = {
       {"commit", build.commit}, {"modified", build.dirty}, {"toolchain", toolchain}};
