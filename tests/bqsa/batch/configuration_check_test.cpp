@@ -210,6 +210,22 @@ TEST(ConfigurationCheck, WhatIsNoNumberOrTooLargeIsNotFree) {
   });
 }
 
+TEST(ConfigurationCheck, AnglesThatSinesAreNotGoodForAreNotFree) {
+  for (const double offset : {0.0, -30'000.0, 1e5}) {
+    ChainDescription arm = planar_chain({0.3, 0.3, 0.3});
+    arm.rows[1].offset = offset;
+    const ConfigurationCheck check(SerialChain(arm), {}, 0, 1e6);
+    ConfigurationArray configurations(3, 2);
+    configurations.set(0, JointVector::Constant(3, 7'000));
+    configurations.set(1, JointVector::Constant(3, 39'000));
+    with_all_instruction_sets([&] {
+      std::vector<std::uint16_t> free(1);
+      check.certainly_free(configurations, free);
+      EXPECT_EQ(free.front(), offset < 1e5 ? 1 : 0) << offset;
+    });
+  }
+}
+
 TEST(ConfigurationCheck, AnObstacleThatMovedIsWhereItWasPut) {
   const SerialChain chain(planar_chain({0.5, 0.5}));
   const Ellipsoid far = embedded(rotated_ellipse({5, 5}, {0.1, 0.1}, 0));

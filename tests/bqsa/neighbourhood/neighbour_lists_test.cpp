@@ -318,6 +318,8 @@ TEST(NeighbourLists, LinksWithoutLengthOrWithoutNumbersAreAskedAboutToo) {
   const Vector3d nowhere = Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   EXPECT_EQ(first_hit({nowhere, Vector3d::Zero()}), 0) << "as the quadratic says";
   EXPECT_EQ(first_hit({Vector3d(1, 0, 0), Vector3d(1, 0, 0)}), 1) << "and is none the worse for it";
+  EXPECT_EQ(first_hit({Vector3d(4, 0, 0), Vector3d(4, 0, 0)}), -1) << "by a list, which then says";
+  EXPECT_EQ(first_hit({Vector3d(4, 0, 0), nowhere}), 0) << "nothing of this one";
 }
 
 /// An arm that wags in the middle of a crowd that stays away from it.
