@@ -35,10 +35,8 @@ void declare_list(CLI::App& app, CommandLine& line) {
   list->add_option("--scenarios", line.scenario_directory,
                    "Directory of scenario files [./scenarios]");
   add_external_option(*list, line.externals);
-  list->callback([&line] {
-    line.command = [&line](const Console& console) {
-      return list_command(line.known(), line.scenario_directory, console);
-    };
+  on_choice(*list, line, [&line](const Console& console) {
+    return list_command(line.known(), line.scenario_directory, console);
   });
 }
 
@@ -83,10 +81,8 @@ void declare_run(CLI::App& app, CommandLine& line) {
   run->add_flag("--in-process", line.run.in_process,
                 "Run methods in this process, without limits, for a profiler or debugger");
   add_report_options(*run, line.run.report);
-  run->callback([&line] {
-    line.command = [&line](const Console& console) {
-      return run_command(line.known(), line.run, console);
-    };
+  on_choice(*run, line, [&line](const Console& console) {
+    return run_command(line.known(), line.run, console);
   });
 }
 
@@ -94,10 +90,8 @@ void declare_show(CLI::App& app, CommandLine& line) {
   CLI::App* show = add_command(app, "show", "Print the table of a results directory");
   show->add_option("DIR", line.results_directory, "Results directory")->required();
   add_report_options(*show, line.report);
-  show->callback([&line] {
-    line.command = [&line](const Console& console) {
-      return show_command(line.results_directory, line.report, console);
-    };
+  on_choice(*show, line, [&line](const Console& console) {
+    return show_command(line.results_directory, line.report, console);
   });
 }
 
@@ -118,10 +112,8 @@ void declare_step(CLI::App& app, CommandLine& line) {
       "Joint angles before that tick: q1,...,qn [rad], or a trajectory file that has them");
   tick->needs(state)->excludes(slowest);
   state->needs(tick)->excludes(slowest);
-  step->callback([&line] {
-    line.command = [&line](const Console& console) {
-      return step_command(line.known(), line.step, console);
-    };
+  on_choice(*step, line, [&line](const Console& console) {
+    return step_command(line.known(), line.step, console);
   });
 }
 
@@ -142,10 +134,8 @@ void declare_conform(CLI::App& app, CommandLine& line) {
       ->add_option("--plan-budget", line.conform.plan_budget,
                    "Wall time that planning methods may use for a plan [s] [10]")
       ->check(CLI::Range(1e-3, kMostSeconds));
-  conform->callback([&line] {
-    line.command = [&line](const Console& console) {
-      return conform_command(line.known(), line.conform, console);
-    };
+  on_choice(*conform, line, [&line](const Console& console) {
+    return conform_command(line.known(), line.conform, console);
   });
 }
 
@@ -157,10 +147,8 @@ void declare_judge(CLI::App& app, CommandLine& line) {
                    "CSV file t,q1..qn [s, rad], one row for each of the ticks and the start")
       ->required();
   judge->add_flag("--strict", line.strict, "Exit with 1 if it is not a success [0 all the same]");
-  judge->callback([&line] {
-    line.command = [&line](const Console& console) {
-      return judge_command(line.scenario, line.trajectory, line.strict, console);
-    };
+  on_choice(*judge, line, [&line](const Console& console) {
+    return judge_command(line.scenario, line.trajectory, line.strict, console);
   });
 }
 
@@ -183,11 +171,8 @@ void declare_generate(CLI::App& app, CommandLine& line) {
                        "Directory of robot files, for families with spatial arms [./robots]");
   generate->add_flag("--witnesses", line.generate.witnesses,
                      "Write a solution beside each scenario too, FILE.witness.csv, for judge");
-  generate->callback([&line] {
-    line.command = [&line](const Console& console) {
-      return generate_command(line.generate, console);
-    };
-  });
+  on_choice(*generate, line,
+            [&line](const Console& console) { return generate_command(line.generate, console); });
 }
 
 void declare_new_method(CLI::App& app, CommandLine& line) {
@@ -195,10 +180,8 @@ void declare_new_method(CLI::App& app, CommandLine& line) {
       app, "new-method", "Write a method that works, with its test, into the source tree");
   new_method->add_option("NAME", line.method_name, "Its name, [a-z][a-z0-9_]*")->required();
   new_method->add_option("--tree", line.tree, "Source tree of the project [.]");
-  new_method->callback([&line] {
-    line.command = [&line](const Console& console) {
-      return new_method_command(line.methods, line.method_name, line.tree, console);
-    };
+  on_choice(*new_method, line, [&line](const Console& console) {
+    return new_method_command(line.methods, line.method_name, line.tree, console);
   });
 }
 
@@ -206,11 +189,8 @@ void declare_validate(CLI::App& app, CommandLine& line) {
   CLI::App* validate = add_command(app, "validate", "Check scenario files without running");
   validate->add_option("FILE", line.files, "Scenario files, or directories with files *.yaml")
       ->required();
-  validate->callback([&line] {
-    line.command = [&line](const Console& console) {
-      return validate_command(line.files, console);
-    };
-  });
+  on_choice(*validate, line,
+            [&line](const Console& console) { return validate_command(line.files, console); });
 }
 
 }  // namespace
