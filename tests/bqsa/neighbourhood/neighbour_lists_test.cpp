@@ -394,6 +394,20 @@ TEST(NeighbourLists, MoreThanAListCanHoldAreAskedOneByOneWithoutAllocating) {
   EXPECT_EQ(guard.allocations(), 0U);
 }
 
+/// Boxes of all of them meet the link, and only the last one comes near it.
+TEST(NeighbourLists, MoreBoxesThanOneSearchFindsLeaveNothingOut) {
+  const Eigen::Matrix3d tilted =
+      Eigen::AngleAxisd(std::numbers::pi / 4, Vector3d::UnitZ()).toRotationMatrix();
+  std::vector<Obstacle> obstacles(
+      5000, {"sheet", Ellipsoid(Vector3d(-0.3, -0.3, 0), Vector3d(0.001, 0.5, 0.5), tilted)});
+  obstacles.push_back({"here", Ellipsoid({0, 0, 0}, Vector3d::Constant(0.01))});
+  WorkCounters counters;
+  ObstacleField<3> field;
+  field.assign(obstacles, counters);
+  const OneLink one(Vector3d(-0.1, 0, 0), Vector3d(0.1, 0, 0));
+  EXPECT_EQ(field.first_hit(one.pose, one.link), 5000);
+}
+
 TEST(NeighbourLists, ThoseThatAreIncompleteProveNothing) {
   const std::vector<Obstacle> obstacles(
       6000, {"near", Ellipsoid(Vector3d(0, 0.15, 0), Vector3d::Constant(0.1))});
