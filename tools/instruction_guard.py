@@ -6,10 +6,10 @@
   tools/instruction_guard.py --record      makes what is measured the baseline of this toolchain
   tools/instruction_guard.py --self-test   the guard itself: A against A passes, 5 % more work fails
 
-Instructions are counted by valgrind's callgrind, for two numbers of repetitions; the difference is
-free of what comes before the first. Counts of a repetition repeat to 0.5 % or better as long as compiler, flags and libraries are
-the same, and are compared only then. Needs the release build with its benchmarks
-(docs/guarding.md). Status: 0 nothing to do, 1 a count has changed, 2 nothing could be measured.
+Instructions are counted by valgrind's callgrind, of the repetitions alone: what precedes them varies from
+run to run. Counts repeat to a dozen as long as compiler, flags and libraries are the same, and are
+compared only then. Needs the release build with its benchmarks (docs/guarding.md). Status: 0 nothing
+to do, 1 a count has changed, 2 nothing could be measured.
 """
 import argparse
 import concurrent.futures
@@ -26,15 +26,14 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRAM = ROOT / "build/release/benchmarks/instruction_guard"
 BASELINE = ROOT / "results/instructions/baseline.json"
 TOLERANCE = 0.02
-REPETITIONS = (1, 3)
-# What precedes the first repetition repeats to some 50,000; the difference has to be large against that.
-LEAST_DIFFERENCE = 15_000_000
+REPETITIONS = 3
+COUNTED = "bqsa::counted_repetitions*"  # the function in which the program repeats
 
 # The self-test: repetitions by which 5 % of them can be done twice, and how well counts repeat.
 SELF_TEST_KERNELS = ("segment/polar_form_shared_ends/space", "step/bqsa/planar_7r/free")
-SELF_TEST_REPETITIONS = (100, 1100)
+SELF_TEST_REPETITIONS = 100
 INJECTED_PERCENT = 5
-REPEATABILITY = 1e-3
+REPEATABILITY = 1e-4
 
 # The C library picks variants of sin, cos, memcpy and others by the processor; the plain ones run
 # everywhere.
@@ -53,40 +52,26 @@ def output_of(command, **options):
     return done
 
 
-def collected(program, kernel, repetitions, inject):
-    """Instructions of a whole process."""
+def instructions(program, kernel, repetitions=REPETITIONS, inject=0):
+    """Instructions of one repetition."""
     environment = {"GLIBC_TUNABLES": TUNABLES}
     for name in ("PATH", "LD_LIBRARY_PATH", "VALGRIND_LIB"):
         if name in os.environ:
             environment[name] = os.environ[name]
-    command = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", program,
-               "--kernel", kernel, "--repetitions", str(repetitions), "--inject", str(inject)]
+    command = ["valgrind", "--tool=callgrind", f"--toggle-collect={COUNTED}",
+               "--callgrind-out-file=/dev/null", program, "--kernel", kernel,
+               "--repetitions", str(repetitions), "--inject", str(inject)]
     report = output_of(command, env=environment).stderr
     found = re.search(r"Collected : (\d+)", report)
-    if not found:
+    if not found or int(found[1]) == 0:
         raise GuardError(f"{kernel}: expected a count from callgrind, got\n{report.strip()}")
-    return int(found[1])
-
-
-def instructions(program, kernel, repetitions=REPETITIONS, inject=0):
-    """Instructions of one repetition."""
-    few, many = repetitions
-    counts = [collected(program, kernel, number, inject) for number in repetitions]
-    return round((counts[1] - counts[0]) / (many - few))
+    return round(int(found[1]) / repetitions)
 
 
 def measure(program, kernels, jobs):
     """{kernel: instructions of a repetition}"""
-    def enough(kernel):
-        few, many = REPETITIONS
-        estimate = max(1, instructions(program, kernel))
-        if estimate * (many - few) >= LEAST_DIFFERENCE:
-            return estimate
-        more = few + max(1, min(LEAST_DIFFERENCE // estimate, 10_000))
-        return instructions(program, kernel, (few, more))
-
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        return dict(zip(kernels, pool.map(enough, kernels)))
+        return dict(zip(kernels, pool.map(lambda kernel: instructions(program, kernel), kernels)))
 
 
 def read_baseline(file):

@@ -165,12 +165,23 @@ class Measuring(unittest.TestCase):
              contextlib.redirect_stdout(io.StringIO()):
             return instruction_guard.self_test("program")
 
-    def test_what_comes_before_the_repetitions_does_not_count(self):
-        with unittest.mock.patch.object(
-                instruction_guard, "collected",
-                lambda program, kernel, repetitions, inject: 37_000_000 + 1234 * repetitions):
-            self.assertEqual(instruction_guard.instructions("program", "a"), 1234)
-            self.assertEqual(instruction_guard.instructions("program", "a", (100, 300)), 1234)
+    def instructions(self, report, **arguments):
+        """Of a report of callgrind's, and the command that was to give it."""
+        answer = subprocess.CompletedProcess([], 0, stderr=report)
+        with unittest.mock.patch.object(instruction_guard, "output_of", return_value=answer) as run:
+            count = instruction_guard.instructions("program", "a", **arguments)
+        return count, [str(word) for word in run.call_args.args[0]]
+
+    def test_counts_are_of_one_repetition_and_of_nothing_else(self):
+        count, command = self.instructions("==1== Collected : 123418\n", repetitions=100, inject=5)
+        self.assertEqual(count, 1234)
+        self.assertIn("--toggle-collect=bqsa::counted_repetitions*", command)
+        self.assertEqual(command[-6:], ["--kernel", "a", "--repetitions", "100", "--inject", "5"])
+
+    def test_no_count_is_an_error(self):
+        for report in ("", "==1== Collected : 0\n"):  # 0 if no function has the name
+            with self.assertRaisesRegex(instruction_guard.GuardError, "a: expected a count"):
+                self.instructions(report)
 
     def test_the_self_test_passes_if_counts_follow_the_work(self):
         self.assertEqual(self.self_test(lambda inject: 10000 + 100 * inject), 0)
@@ -179,7 +190,7 @@ class Measuring(unittest.TestCase):
         self.assertEqual(self.self_test(lambda inject: 10000), 1)
 
     def test_the_self_test_fails_if_counts_do_not_repeat(self):
-        counts = iter([10000, 10020, 10500, 10000, 10000, 10500])
+        counts = iter([10000, 10002, 10500, 10000, 10000, 10500])
         self.assertEqual(self.self_test(lambda inject: next(counts)), 1)
 
 

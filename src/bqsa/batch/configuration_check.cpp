@@ -11,8 +11,17 @@ namespace bqsa {
 namespace {
 
 constexpr double kEps = 0x1p-24;
+constexpr double kLargestSum = 38'000;  // of an angle and an offset [rad]
 
 static_assert(batch::Arm::kMaxJoints == kMaxJoints);
+
+double largest_offset(const SerialChain& chain) {
+  double largest = 0;
+  for (const DhRow& row : chain.description().rows) {
+    largest = std::max(largest, std::abs(row.offset));
+  }
+  return largest;
+}
 
 batch::Arm arm_of(const SerialChain& chain, double largest_angle) {
   const ChainDescription& description = chain.description();
@@ -41,15 +50,14 @@ batch::Arm arm_of(const SerialChain& chain, double largest_angle) {
 Workspace workspace_of(const SerialChain& chain, double largest_angle) {
   const ChainDescription& description = chain.description();
   Workspace space{.reach = description.p_LT.norm(), .link_length = description.p_LT.norm()};
-  double largest_offset = 0;
   for (const DhRow& row : description.rows) {
     space.reach += std::abs(row.a) + std::abs(row.d);
     space.link_length = std::max(space.link_length, std::hypot(row.a, row.d));
-    largest_offset = std::max(largest_offset, std::abs(row.offset));
   }
+  const double largest_sum = largest_angle + largest_offset(chain);
   double frame = 2 * kEps;
   for (const DhRow& row : description.rows) {
-    frame += (20 + 2 * (largest_angle + largest_offset)) * kEps;
+    frame += (20 + 2 * largest_sum) * kEps;
     space.point_error +=
         (std::abs(row.a) + std::abs(row.d)) * (frame + 4 * kEps) + 2 * kEps * space.reach;
   }
@@ -87,8 +95,10 @@ ConfigurationCheck::ConfigurationCheck(const SerialChain& chain, std::span<const
                                        double clearance, double largest_angle)
     : origin_(chain.description().p_WB),
       clearance_(clearance),
-      arm_((validate(clearance, largest_angle), arm_of(chain, largest_angle))),
       obstacles_(ObstacleBatch<2, float>(0, {})) {
+  validate(clearance, largest_angle);
+  largest_angle = std::min(largest_angle, kLargestSum - largest_offset(chain));
+  arm_ = arm_of(chain, largest_angle);
   const Workspace workspace = workspace_of(chain, largest_angle);
   point_error_ = workspace.point_error;
   const int count = static_cast<int>(shapes.size());

@@ -69,7 +69,8 @@ class ConfigurationCheck {
   /// @param shapes         in the plane `embedded` ellipses
   /// @param clearance      what links' axes have to keep from obstacles [m]
   /// @param largest_angle  configurations with a larger one, or with what is not a number, are never
-  ///                       free [rad]
+  ///                       free; nor are those with one beyond what Highway promises for, 38,000
+  ///                       less the largest offset [rad]
   /// @throws std::invalid_argument unless clearance and angle are finite and not negative
   ConfigurationCheck(const SerialChain& chain, std::span<const Ellipsoid> shapes, double clearance,
                      double largest_angle = 4 * std::numbers::pi);

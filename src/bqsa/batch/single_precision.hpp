@@ -17,7 +17,7 @@
 ///
 /// *Polar form.* Let the segment's line pass 0 at the distance h; g = 1 - h². Let s1, s2 be the
 /// distances of its ends from the foot, L = s1 + s2 its length. If the deepest point is an end, its
-/// level 1 - |u|² >= 2 tau - tau² is found not negative if 2 tau - tau² >= 4 eps. Else the foot lies
+/// level 1 - |u|² >= 2 tau - tau² is found not negative if 2 tau - tau² >= 8 eps. Else the foot lies
 /// between the ends, g >= 2 tau - tau², and
 ///
 ///     S11 = g - s1²,   S22 = g - s2²,   S12 = g + s1 s2,   D = S12² - S11 S22 = g L².

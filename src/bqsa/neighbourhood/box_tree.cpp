@@ -160,8 +160,9 @@ BoxesFound BoxTree::search(const Eigen::Vector3d& p1, const Eigen::Vector3d& p2,
   for (int axis = 0; axis < 3; ++axis) {
     const double low = std::min(p1(axis), p2(axis)) - margin;
     const double high = std::max(p1(axis), p2(axis)) + margin;
-    query.low[axis] = rounded_down(low - kRounding * std::abs(low));
-    query.high[axis] = rounded_up(high + kRounding * std::abs(high));
+    // Finite, as an infinite query would meet lanes without a box.
+    query.low[axis] = std::max(rounded_down(low - kRounding * std::abs(low)), -kLargest);
+    query.high[axis] = std::min(rounded_up(high + kRounding * std::abs(high)), kLargest);
   }
   query.distance = std::min(rounded_up(d), kLargest);
   return search_boxes(levels, query, positions.data(), positions.size());

@@ -106,11 +106,12 @@ class NeighbourLists {
     std::vector<Neighbour> neighbours = {};  ///< in increasing order
   };
 
-  /// Square of how far the link's ends are, in both poses, from where they were, at most [m²].
+  /// Square of how far the link's ends are, in both poses, from where they were, at most [m²]. No number
+  /// if one of the second pose is none: then its end is none, which std::max keeps as its first.
   static double ends_squared(const List& list, const Passage& passage) {
     const auto of_pose = [&](const ChainPose& pose) {
-      return std::max((pose.p_WO.col(passage.link.start) - list.start).squaredNorm(),
-                      (pose.p_WO.col(passage.link.end) - list.end).squaredNorm());
+      return std::max((pose.p_WO.col(passage.link.end) - list.end).squaredNorm(),
+                      (pose.p_WO.col(passage.link.start) - list.start).squaredNorm());
     };
     const double squared = of_pose(passage.to);
     return &passage.from == &passage.to ? squared : std::max(squared, of_pose(passage.from));

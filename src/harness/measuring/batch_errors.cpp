@@ -100,7 +100,10 @@ Pair<Dim> random_pair(PairFamily family, RandomStream& random) {
       return {shape, image<Dim>(shape, random.uniform(0, 0.999) * s),
               image<Dim>(shape, random.uniform(0, 0.999) * random_direction<Dim>(random))};
     case PairFamily::kTangent: {
-      const Vector<Dim> touch = image<Dim>(shape, (1 + 0x1p-52 * random.whole(-8, 8)) * s);
+      const double beyond = random.chance(0.5)
+                                ? 0x1p-52 * random.whole(-8, 8)
+                                : random.uniform(-1, 1) * random.log_uniform(1e-12, 1e-2);
+      const Vector<Dim> touch = image<Dim>(shape, (1 + beyond) * s);
       const Vector<Dim> normal = (shape.rotation() * s.cwiseQuotient(axes)).normalized();
       along = (along - normal * normal.dot(along)).normalized();
       return {shape, touch - random.log_uniform(1e-3, 2) * along,
@@ -196,6 +199,15 @@ BatchErrors batch_errors(PairFamily family, std::int64_t pairs, std::uint64_t se
 }
 
 }  // namespace
+
+BatchErrors& BatchErrors::operator+=(const BatchErrors& more) {
+  pairs += more.pairs;
+  hits += more.hits;
+  in_band += more.in_band;
+  missed += more.missed;
+  false_alarms += more.false_alarms;
+  return *this;
+}
 
 std::string_view name_of(PairFamily family) {
   switch (family) {

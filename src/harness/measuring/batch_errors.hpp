@@ -15,7 +15,7 @@ enum class PairFamily {
   kNearVertical,  ///< the same, tilted by 1e-12
   kZeroLength,
   kContained,  ///< both ends inside
-  kTangent,    ///< touches, to within a few units in the last place
+  kTangent,    ///< half touch to within a few units in the last place, half miss by up to 1 %
   kFar,        ///< 10 m to 1 km long, semi-axes 2 cm to 2 m
 };
 
@@ -34,6 +34,8 @@ struct BatchErrors {
   std::int64_t in_band = 0;       ///< nothing is promised of them
   std::int64_t missed = 0;        ///< hits called free, by one instruction set or more
   std::int64_t false_alarms = 0;  ///< free pairs called hits
+
+  BatchErrors& operator+=(const BatchErrors& more);
 };
 
 /// Of `bqsa::hit_masks` in double: right if the ellipsoid 1e-9 smaller and the one 1e-9 larger are both hit

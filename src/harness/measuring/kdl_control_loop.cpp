@@ -19,6 +19,7 @@ struct KdlControlLoop::Solvers {
         dt(problem.dt) {
     q.data = problem.start;
     forward.JntToCart(q, pose);
+    start = pose;
     for (int at = 0; at < kBystanderPeriod; ++at) {
       desired.emplace_back(pose.M, kdl_vector(problem.desired_tip(problem.time(at))));
     }
@@ -40,7 +41,7 @@ struct KdlControlLoop::Solvers {
   KDL::ChainIkSolverVel_wdls velocity;
   KDL::JntArray q;      // [rad]
   KDL::JntArray q_dot;  // [rad/s]
-  KDL::Frame pose;
+  KDL::Frame pose, start;
   std::vector<KDL::Frame> desired;  // of a period, from tick 0 on
   double dt;                        // [s]
   int tick = 0;
@@ -58,6 +59,11 @@ void KdlControlLoop::run(int ticks) {
 double KdlControlLoop::tip_error() const {
   solvers_->forward.JntToCart(solvers_->q, solvers_->pose);
   return (solvers_->pose.p - solvers_->desired_now().p).Norm();
+}
+
+double KdlControlLoop::turn_error() const {
+  solvers_->forward.JntToCart(solvers_->q, solvers_->pose);
+  return KDL::diff(solvers_->pose.M, solvers_->start.M).Norm();
 }
 
 }  // namespace bqsa::harness

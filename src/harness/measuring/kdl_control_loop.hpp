@@ -25,7 +25,8 @@ class KdlControlLoop {
   /// Runs on for so many ticks.
   void run(int ticks);
 
-  double tip_error() const;  ///< distance of the tip from its desired position now [m]
+  double tip_error() const;   ///< distance of the tip from its desired position now [m]
+  double turn_error() const;  ///< angle between the tip's orientation and that at the start [rad]
 
  private:
   struct Solvers;

@@ -5,6 +5,7 @@
 #include <exception>
 #include <ostream>
 #include <string_view>
+#include <utility>
 
 #include "harness/methods.hpp"
 #include "harness/program/declare_commands.hpp"
@@ -51,6 +52,10 @@ CLI::App* add_command(CLI::App& app, const char* name, const char* description) 
   command->set_version_flag("--version", app.version());
   command->footer(kFooter);
   return command;
+}
+
+void on_choice(CLI::App& command, CommandLine& line, std::function<Status(const Console&)> run) {
+  command.callback([&line, run = std::move(run)] { line.command = run; });
 }
 
 int run_program(int argc, const char* const* argv, const Console& console,

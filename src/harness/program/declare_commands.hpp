@@ -48,6 +48,9 @@ struct CommandLine {
 /// Adds a command with what all of them have: --version and the exit status in its help.
 CLI::App* add_command(CLI::App& app, const char* name, const char* description);
 
+/// Makes `run` the command of the line if this is the one that the user chose.
+void on_choice(CLI::App& command, CommandLine& line, std::function<Status(const Console&)> run);
+
 /// Commands that run methods, and those on scenarios and results.
 void declare_run_commands(CLI::App& app, CommandLine& line);
 

@@ -18,10 +18,10 @@ void declare_measure(CLI::App& app, CommandLine& line) {
       ->add_flag("--full", line.measure.full, "More, longer blocks and more processes: ten minutes")
       ->excludes(quick);
   measure
-      ->add_option(
-          "--sweep", line.measure.sweeps,
-          "plane_nm, plane_nk, space_nm, space_nk: passes of detectors; step_nk,\n"
-          "space_step_nk: control steps of methods; gate: the measuring itself; repeatable [all]")
+      ->add_option("--sweep", line.measure.sweeps,
+                   "plane_nm, plane_nk, space_nm, space_nk: passes of detectors; step_nk,\n"
+                   "space_step_nk: control steps of methods; speed_pairs, speed_steps: for the\n"
+                   "claims on speed; gate: the measuring itself; repeatable [all]")
       ->allow_extra_args(false);
   measure
       ->add_option("--processes", line.measure.processes,
@@ -31,11 +31,8 @@ void declare_measure(CLI::App& app, CommandLine& line) {
       ->add_option("--process", line.measure.process,
                    "Be the one process of this number: measure here, write --out, print nothing")
       ->check(CLI::Range(1, kMostProcesses));
-  measure->callback([&line] {
-    line.command = [&line](const Console& console) {
-      return measure_command(line.measure, console);
-    };
-  });
+  on_choice(*measure, line,
+            [&line](const Console& console) { return measure_command(line.measure, console); });
 }
 
 void declare_compare(CLI::App& app, CommandLine& line) {
@@ -54,11 +51,8 @@ void declare_compare(CLI::App& app, CommandLine& line) {
                    "A time is worse if the whole interval of new / old is above this [1.10]")
       ->check(CLI::Range(1.0, kLargestThreshold));
   compare->add_flag("--all", line.compare.all, "Print ties too");
-  compare->callback([&line] {
-    line.command = [&line](const Console& console) {
-      return compare_command(line.compare, console);
-    };
-  });
+  on_choice(*compare, line,
+            [&line](const Console& console) { return compare_command(line.compare, console); });
 }
 
 void declare_claims(CLI::App& app, CommandLine& line) {
@@ -81,12 +75,10 @@ void declare_claims(CLI::App& app, CommandLine& line) {
                    "With --render: replace what stands between <!-- claims --> and\n"
                    "<!-- /claims --> of this file")
       ->needs(render);
-  claims->callback([&line] {
-    line.command = [&line](const Console& console) {
-      return line.claims_result.empty()
-                 ? claims_command(line.methods, line.claims, console)
-                 : render_claims_command(line.claims_result, line.claims_into, console);
-    };
+  on_choice(*claims, line, [&line](const Console& console) {
+    return line.claims_result.empty()
+               ? claims_command(line.methods, line.claims, console)
+               : render_claims_command(line.claims_result, line.claims_into, console);
   });
 }
 
@@ -107,11 +99,8 @@ void declare_figures(CLI::App& app, CommandLine& line) {
       ->add_flag("!--without-times", line.figures.times,
                  "Leave out the figures of times, and measure nothing")
       ->excludes(measurements);
-  figures->callback([&line] {
-    line.command = [&line](const Console& console) {
-      return figures_command(line.figures, console);
-    };
-  });
+  on_choice(*figures, line,
+            [&line](const Console& console) { return figures_command(line.figures, console); });
 }
 
 }  // namespace

@@ -42,10 +42,8 @@ void declare_list(CLI::App& app, CommandLine& line) {
   list->add_option("--scenarios", line.scenario_directory,
                    "Directory of scenario files [./scenarios]");
   add_external_option(*list, line.externals);
-  list->callback([&line] {
-    line.command = [&line](const Console& console) {
-      return list_command(line.known(), line.scenario_directory, console);
-    };
+  on_choice(*list, line, [&line](const Console& console) {
+    return list_command(line.known(), line.scenario_directory, console);
   });
 }
 
@@ -122,13 +120,11 @@ void declare_run(CLI::App& app, CommandLine& line) {
   run->add_flag("--strict", line.run.strict, "Exit with 1 if a run is not judged a success");
   run->add_flag("--quiet,-q", line.run.quiet, "Print neither progress nor table");
   add_report_options(*run, line.run.report);
-  run->callback([&line, conditions, of_campaigns] {
+  on_choice(*run, line, [&line, conditions, of_campaigns](const Console& console) {
     line.run.not_for_campaigns = given(conditions);
     line.run.for_campaigns = given(of_campaigns);
     line.run.shuffled = of_campaigns.back()->count() > 0;
-    line.command = [&line](const Console& console) {
-      return run_command(line.known(), line.run, console);
-    };
+    return run_command(line.known(), line.run, console);
   });
 }
 
@@ -138,20 +134,16 @@ void declare_plan(CLI::App& app, CommandLine& line) {
   plan->add_option("--out,-o", line.run.directory, "Directory of the campaign")->required();
   add_load_options(*plan, line.run.load);
   add_external_option(*plan, line.externals);
-  plan->callback([&line] {
-    line.command = [&line](const Console& console) {
-      return plan_command(line.known(), line.run, console);
-    };
+  on_choice(*plan, line, [&line](const Console& console) {
+    return plan_command(line.known(), line.run, console);
   });
 }
 
 void declare_status(CLI::App& app, CommandLine& line) {
   CLI::App* status = add_command(app, "status", "Print how much of a campaign is recorded");
   status->add_option("DIR", line.results_directory, "Directory of a campaign")->required();
-  status->callback([&line] {
-    line.command = [&line](const Console& console) {
-      return status_command(line.results_directory, console);
-    };
+  on_choice(*status, line, [&line](const Console& console) {
+    return status_command(line.results_directory, console);
   });
 }
 
@@ -162,10 +154,8 @@ void declare_missing(CLI::App& app, CommandLine& line) {
       ->required()
       ->check(CLI::Range(1, kMostShards));
   missing->add_option("DIR", line.results_directory, "Directory of a campaign")->required();
-  missing->callback([&line] {
-    line.command = [&line](const Console& console) {
-      return missing_command(line.shards, line.results_directory, console);
-    };
+  on_choice(*missing, line, [&line](const Console& console) {
+    return missing_command(line.shards, line.results_directory, console);
   });
 }
 
@@ -174,10 +164,8 @@ void declare_merge(CLI::App& app, CommandLine& line) {
   merge->add_option("DIR", line.files, "Directories of one campaign")->required();
   merge->add_option("--out,-o", line.results_directory, "Results directory; may be one of them")
       ->required();
-  merge->callback([&line] {
-    line.command = [&line](const Console& console) {
-      return merge_command(line.files, line.results_directory, console);
-    };
+  on_choice(*merge, line, [&line](const Console& console) {
+    return merge_command(line.files, line.results_directory, console);
   });
 }
 
@@ -185,10 +173,8 @@ void declare_show(CLI::App& app, CommandLine& line) {
   CLI::App* show = add_command(app, "show", "Print the table of a results directory");
   show->add_option("DIR", line.results_directory, "Results directory")->required();
   add_report_options(*show, line.report);
-  show->callback([&line] {
-    line.command = [&line](const Console& console) {
-      return show_command(line.results_directory, line.report, console);
-    };
+  on_choice(*show, line, [&line](const Console& console) {
+    return show_command(line.results_directory, line.report, console);
   });
 }
 
@@ -203,10 +189,8 @@ void declare_export(CLI::App& app, CommandLine& line) {
   command->add_option("--csv", line.exported.csv, "A row a run, all figures");
   command->add_option("--google-benchmark", line.exported.google_benchmark,
                       "Times of successes as Google Benchmark's JSON");
-  command->callback([&line] {
-    line.command = [&line](const Console& console) {
-      return export_command(line.exported, console);
-    };
+  on_choice(*command, line, [&line](const Console& console) {
+    return export_command(line.exported, console);
   });
 }
 
@@ -229,10 +213,8 @@ void declare_step(CLI::App& app, CommandLine& line) {
       "Joint angles before that tick: q1,...,qn [rad], or a trajectory file that has them");
   tick->needs(state)->excludes(slowest);
   state->needs(tick)->excludes(slowest);
-  step->callback([&line] {
-    line.command = [&line](const Console& console) {
-      return step_command(line.known(), line.step, console);
-    };
+  on_choice(*step, line, [&line](const Console& console) {
+    return step_command(line.known(), line.step, console);
   });
 }
 
@@ -254,10 +236,8 @@ void declare_conform(CLI::App& app, CommandLine& line) {
       ->add_option("--plan-budget", line.conform.plan_budget,
                    "Wall time that planning methods may use for a plan [s] [10]")
       ->check(CLI::Range(1e-3, kMostSeconds));
-  conform->callback([&line] {
-    line.command = [&line](const Console& console) {
-      return conform_command(line.known(), line.conform, console);
-    };
+  on_choice(*conform, line, [&line](const Console& console) {
+    return conform_command(line.known(), line.conform, console);
   });
 }
 
@@ -270,10 +250,8 @@ void declare_judge(CLI::App& app, CommandLine& line) {
       ->required();
   add_load_options(*judge, line.load);
   judge->add_flag("--strict", line.strict, "Exit with 1 if it is not a success [0 all the same]");
-  judge->callback([&line] {
-    line.command = [&line](const Console& console) {
-      return judge_command(line.scenario, line.trajectory, line.load, line.strict, console);
-    };
+  on_choice(*judge, line, [&line](const Console& console) {
+    return judge_command(line.scenario, line.trajectory, line.load, line.strict, console);
   });
 }
 
@@ -296,11 +274,8 @@ void declare_generate(CLI::App& app, CommandLine& line) {
                        "Directory of robot files, for families with spatial arms [./robots]");
   generate->add_flag("--witnesses", line.generate.witnesses,
                      "Write a solution beside each scenario too, FILE.witness.csv, for judge");
-  generate->callback([&line] {
-    line.command = [&line](const Console& console) {
-      return generate_command(line.generate, console);
-    };
-  });
+  on_choice(*generate, line,
+            [&line](const Console& console) { return generate_command(line.generate, console); });
 }
 
 void declare_new_method(CLI::App& app, CommandLine& line) {
@@ -308,10 +283,8 @@ void declare_new_method(CLI::App& app, CommandLine& line) {
       app, "new-method", "Write a method that works, with its test, into the source tree");
   new_method->add_option("NAME", line.method_name, "Its name, [a-z][a-z0-9_]*")->required();
   new_method->add_option("--tree", line.tree, "Source tree of the project [.]");
-  new_method->callback([&line] {
-    line.command = [&line](const Console& console) {
-      return new_method_command(line.methods, line.method_name, line.tree, console);
-    };
+  on_choice(*new_method, line, [&line](const Console& console) {
+    return new_method_command(line.methods, line.method_name, line.tree, console);
   });
 }
 
@@ -320,10 +293,8 @@ void declare_validate(CLI::App& app, CommandLine& line) {
   validate->add_option("FILE", line.files, "Scenario files, or directories with files *.yaml")
       ->required();
   add_load_options(*validate, line.load);
-  validate->callback([&line] {
-    line.command = [&line](const Console& console) {
-      return validate_command(line.files, line.load, console);
-    };
+  on_choice(*validate, line, [&line](const Console& console) {
+    return validate_command(line.files, line.load, console);
   });
 }
 

@@ -64,7 +64,11 @@ const BuildInfo& build_info() {
 #endif
       .sanitizers = kSanitized,
       .libraries = {{"Eigen", kEigenVersion},
+                    {"Highway", kHighwayVersion},
                     {"FCL", kFclVersion},
+                    {"libccd", kCcdVersion},
+                    {"Bullet", kBulletVersion},
+                    {"Orocos KDL", kKdlVersion},
                     {"OMPL", kOmplVersion},
                     {"yaml-cpp", kYamlCppVersion},
                     {"nlohmann_json", kNlohmannJsonVersion},

@@ -136,6 +136,10 @@ TEST(WorkAPair, IsLeastWhereVectorsAreFull) {
   EXPECT_LT(work_a_pair(Lanes::kGroups, 64, 4, 3), work_a_pair(Lanes::kPoints, 64, 4, 3));
   EXPECT_LT(work_a_pair(Lanes::kPoints, 3, 40, 15), work_a_pair(Lanes::kGroups, 3, 40, 15));
   EXPECT_LT(work_a_pair(Lanes::kGroups, 9, 3, 4), work_a_pair(Lanes::kGroups, 3, 4, 3));
+  EXPECT_LT(work_a_pair(Lanes::kGroups, 8, 8, 3), work_a_pair(Lanes::kPoints, 8, 8, 3))
+      << "all vectors are full, but lanes must be compared";
+  EXPECT_EQ(work_a_pair(Lanes::kPoints, 5, 9, 8), work_a_pair(Lanes::kPoints, 5, 16, 8));
+  EXPECT_EQ(9 * work_a_pair(Lanes::kGroups, 9, 3, 4), 16 * work_a_pair(Lanes::kGroups, 16, 3, 4));
 }
 
 }  // namespace

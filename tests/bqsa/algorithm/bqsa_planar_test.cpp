@@ -5,6 +5,7 @@
 
 #include "bqsa/bqsa_methods.hpp"
 #include "bqsa/geometry/separation.hpp"
+#include "bqsa/planar_self_motion.hpp"
 #include "support/paper_problems.hpp"
 #include "support/replay.hpp"
 #include "support/sampling.hpp"
@@ -83,7 +84,8 @@ struct RandomScene {
   bool valid = false;
 };
 
-RandomScene random_scene(test_support::Generator& generator) {
+/// With an obstacle that one of the links from number `first` on would hit.
+RandomScene random_scene(test_support::Generator& generator, int first = 3) {
   using test_support::uniform;
   Problem problem = planar_7r(150);
   problem.obstacles.clear();
@@ -101,7 +103,7 @@ RandomScene random_scene(test_support::Generator& generator) {
   const Replay nominal = replay(tracking, problem);
   if (nominal.q.size() != 151U) return {problem};
   problem.chain.forward(nominal.q[80], pose);
-  const int link = static_cast<int>(uniform(generator, 3, 7.999));
+  const int link = static_cast<int>(uniform(generator, first, 7.999));
   const Eigen::Vector2d on_link =
       pose.p_WO.col(link - 1).head<2>() +
       uniform(generator, 0.1, 0.9) * (pose.p_WO.col(link) - pose.p_WO.col(link - 1)).head<2>();
@@ -205,6 +207,73 @@ TEST(BqsaPlanar, LeavesLinksAtTheExit) {
     }
   }
   EXPECT_GT(cleared, 30);
+}
+
+/// Least distance to keep of the links numbered lowest .. highest, as the quadratic proves it [m].
+double kept(const Problem& problem, const JointVector& q, int lowest, int highest) {
+  ChainPose pose;
+  problem.chain.forward(q, pose);
+  double least = std::numeric_limits<double>::infinity();
+  for (int link = lowest; link <= highest; ++link) {
+    for (const Obstacle& obstacle : problem.obstacles) {
+      least = std::min(least,
+                       separation<3>(obstacle.shape, pose.p_WO.col(link - 1), pose.p_WO.col(link)));
+    }
+  }
+  return least;
+}
+
+/// What a tick says of a link that it turned, where it turned no other: the same tick without obstacles
+/// shows from where.
+TEST(BqsaPlanar, TurnsALinkToItsExitWithinTheSearchRange) {
+  test_support::Generator generator(9);
+  int scenes = 0, turned = 0, too_far = 0;
+  while (scenes < 60) {
+    const RandomScene scene = random_scene(generator, 1);
+    if (!scene.valid) continue;
+    BqsaSettings settings;
+    settings.retries = 0;
+    settings.release = Release::kNever;
+    settings.search_range = ++scenes % 2 == 0 ? 0.01 : 0.6;
+    const Problem& problem = scene.problem;
+    Problem empty = problem;
+    empty.obstacles.clear();
+    const double resolution = std::ldexp(settings.increment, -settings.settling);
+    WorkCounters counters;
+    PlanarSelfMotion self_motion;
+    self_motion.assign(problem.chain, counters);
+    ChainPose pose;
+    BqsaPlanar method(PlanarVariant::kExact, settings), tracking(PlanarVariant::kExact, settings);
+    method.prepare(problem);
+    tracking.prepare(empty);
+    StepInput input;
+    StepOutput output, prediction;
+    input.q = problem.start;
+    for (input.tick = 1; input.tick <= problem.ticks; ++input.tick) {
+      input.t = problem.time(input.tick);
+      input.p_WT_desired = problem.desired_tip(input.t);
+      method.step(input, output);
+      tracking.step(input, prediction);
+      if (output.state == TickState::kInfeasible) break;
+      input.q = output.q;
+      if (output.clamp_count != 1) continue;
+      ++turned;
+      const Clamp& clamp = output.clamps[0];
+      const double turn = (output.q - prediction.q).head(clamp.link).sum();
+      EXPECT_NEAR(clamp.offset, turn, 1e-9) << scenes << ' ' << input.tick;
+      EXPECT_LE(std::abs(clamp.offset), settings.search_range) << scenes << ' ' << input.tick;
+      const int lowest = clamp.link <= 3 ? 1 : clamp.link;
+      EXPECT_GT(kept(problem, output.q, lowest, clamp.anchor), settings.safety_offset)
+          << scenes << ' ' << input.tick;
+      JointVector back = output.q;
+      problem.chain.forward(back, pose);
+      ASSERT_TRUE(self_motion.turn_link(clamp.link, clamp.anchor,
+                                        std::copysign(resolution, -clamp.offset), back, pose));
+      too_far += kept(problem, back, lowest, clamp.anchor) > settings.safety_offset;
+    }
+  }
+  EXPECT_GT(turned, 1000);
+  EXPECT_LT(too_far, turned / 200) << "next to a stretched arm a turn is not smooth";
 }
 
 TEST(BqsaPlanar, EndsATickWhenItsIncrementsAreSpent) {

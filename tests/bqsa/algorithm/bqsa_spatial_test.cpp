@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "bqsa/geometry/separation.hpp"
 #include "support/paper_problems.hpp"
 #include "support/replay.hpp"
 
@@ -38,6 +41,42 @@ TEST_P(PumaScene, IsFreeAtAndBetweenTicks) {
   EXPECT_LT(run.tip_error, 1e-8);
   EXPECT_LT(run.largest_step, GetParam().largest_step);
   EXPECT_LE(run.most_increments, 6) << "ways out are estimated, not searched for in increments";
+}
+
+/// The link keeps what the halvings of an increment would leave it, and no more.
+TEST_P(PumaScene, LeavesTheLinkAtTheExit) {
+  const Problem problem = GetParam().make();
+  BqsaSettings settings;
+  settings.retries = 0;
+  settings.release = Release::kNever;
+  const Link& forearm = *std::ranges::find(problem.chain.links(), kForearm.first, &Link::number);
+  double beyond = 0;  // the way of the link's end where each joint turns by the resolution
+  for (int j = 0; j < problem.chain.joints(); ++j) {
+    beyond +=
+        std::ldexp(settings.increment, -settings.settling) * problem.chain.reach(j, forearm.end);
+  }
+  BqsaSpatial method(settings);
+  method.prepare(problem);
+  StepInput input;
+  StepOutput output;
+  ChainPose pose;
+  input.q = problem.start;
+  int cleared = 0;
+  for (input.tick = 1; input.tick <= problem.ticks; ++input.tick) {
+    input.t = problem.time(input.tick);
+    input.p_WT_desired = problem.desired_tip(input.t);
+    method.step(input, output);
+    if (output.state == TickState::kInfeasible) break;
+    input.q = output.q;
+    if (output.clamp_count == 0) continue;
+    ++cleared;
+    problem.chain.forward(output.q, pose);
+    const double kept = separation<3>(problem.obstacles[0].shape, pose.p_WO.col(forearm.start),
+                                      pose.p_WO.col(forearm.end));
+    EXPECT_GT(kept, settings.safety_offset) << input.tick;
+    EXPECT_LT(kept, settings.safety_offset + beyond) << input.tick;
+  }
+  EXPECT_GT(cleared, 30);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, PumaScene,

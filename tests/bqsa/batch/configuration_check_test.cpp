@@ -155,14 +155,15 @@ TEST_P(ConfigurationChecks, FreeIsCertainAndWhatIsFarIsFree) {
   EXPECT_GT(hits_found, 50 * sets);
 }
 
-/// Balls that touch an end-point, or are just beside it.
+/// Balls that touch an end-point, or are just beside it. Of large angles rounding alone is 6e-5 rad.
 TEST_P(ConfigurationChecks, DecideNextToEndPointsWithinTheirError) {
   constexpr double kRadius = 0.1;
   Generator generator(2);
   int touching = 0, apart = 0;
   for (int number = 0; number < 100; ++number) {
     const SerialChain chain = random_arm(GetParam(), generator);
-    const JointVector q = random_angles(chain.joints(), 4 * std::numbers::pi, generator);
+    const double largest = number % 4 < 2 ? 4 * std::numbers::pi : 1000;
+    const JointVector q = random_angles(chain.joints(), largest, generator);
     ConfigurationArray configurations(chain.joints(), 1);
     configurations.set(0, q);
     ChainPose pose;
@@ -174,7 +175,7 @@ TEST_P(ConfigurationChecks, DecideNextToEndPointsWithinTheirError) {
       if (chain.dimension() == 2) away = Eigen::Vector3d(away.x(), away.y(), 0).normalized();
       const Eigen::Vector3d center = pose.p_WO.col(link.end) + (kRadius + gap) * away;
       const std::vector<Ellipsoid> ball = {{center, Eigen::Vector3d::Constant(kRadius)}};
-      const ConfigurationCheck check(chain, ball, 0);
+      const ConfigurationCheck check(chain, ball, 0, largest);
       const double distance = least_distance(chain, ball, q);
       const bool touches = distance <= 0;
       if (!touches && distance < 4 * check.point_error() + 2e-5) continue;
@@ -208,6 +209,22 @@ TEST(ConfigurationCheck, WhatIsNoNumberOrTooLargeIsNotFree) {
     check.certainly_free(configurations, free);
     EXPECT_EQ(free.front(), 0xFFC0);
   });
+}
+
+TEST(ConfigurationCheck, AnglesThatSinesAreNotGoodForAreNotFree) {
+  for (const double offset : {0.0, -30'000.0, 1e5}) {
+    ChainDescription arm = planar_chain({0.3, 0.3, 0.3});
+    arm.rows[1].offset = offset;
+    const ConfigurationCheck check(SerialChain(arm), {}, 0, 1e6);
+    ConfigurationArray configurations(3, 2);
+    configurations.set(0, JointVector::Constant(3, 7'000));
+    configurations.set(1, JointVector::Constant(3, 39'000));
+    with_all_instruction_sets([&] {
+      std::vector<std::uint16_t> free(1);
+      check.certainly_free(configurations, free);
+      EXPECT_EQ(free.front(), offset < 1e5 ? 1 : 0) << offset;
+    });
+  }
 }
 
 TEST(ConfigurationCheck, AnObstacleThatMovedIsWhereItWasPut) {

@@ -149,6 +149,13 @@ TEST_F(BoxTreeTest, WhatIsBeyondSinglePrecisionIsFoundAllTheSame) {
   for (std::size_t k = 0; k < found.count; ++k) ids.push_back(tree.tree.id(positions[k]));
   std::ranges::sort(ids);
   EXPECT_EQ(ids, (std::vector<std::int32_t>{0, 2}));
+
+  // Nor are lanes without a box taken for one.
+  positions.resize(kBoxGroup);
+  for (const double margin : {1e300, kInfinite}) {
+    EXPECT_EQ(tree.tree.search(Vector3d::Zero(), Vector3d::Zero(), margin, 1e300, positions).count,
+              3U);
+  }
 }
 
 TEST_F(BoxTreeTest, SaysWhenThereIsNotEnoughRoom) {

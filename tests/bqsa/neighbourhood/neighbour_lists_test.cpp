@@ -318,6 +318,8 @@ TEST(NeighbourLists, LinksWithoutLengthOrWithoutNumbersAreAskedAboutToo) {
   const Vector3d nowhere = Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   EXPECT_EQ(first_hit({nowhere, Vector3d::Zero()}), 0) << "as the quadratic says";
   EXPECT_EQ(first_hit({Vector3d(1, 0, 0), Vector3d(1, 0, 0)}), 1) << "and is none the worse for it";
+  EXPECT_EQ(first_hit({Vector3d(4, 0, 0), Vector3d(4, 0, 0)}), -1) << "by a list, which then says";
+  EXPECT_EQ(first_hit({Vector3d(4, 0, 0), nowhere}), 0) << "nothing of this one";
 }
 
 /// An arm that wags in the middle of a crowd that stays away from it.
@@ -390,6 +392,20 @@ TEST(NeighbourLists, MoreThanAListCanHoldAreAskedOneByOneWithoutAllocating) {
   field.keep(0.01);
   EXPECT_EQ(field.first_hit(one.pose, one.link), 5555);
   EXPECT_EQ(guard.allocations(), 0U);
+}
+
+/// Boxes of all of them meet the link, and only the last one comes near it.
+TEST(NeighbourLists, MoreBoxesThanOneSearchFindsLeaveNothingOut) {
+  const Eigen::Matrix3d tilted =
+      Eigen::AngleAxisd(std::numbers::pi / 4, Vector3d::UnitZ()).toRotationMatrix();
+  std::vector<Obstacle> obstacles(
+      5000, {"sheet", Ellipsoid(Vector3d(-0.3, -0.3, 0), Vector3d(0.001, 0.5, 0.5), tilted)});
+  obstacles.push_back({"here", Ellipsoid({0, 0, 0}, Vector3d::Constant(0.01))});
+  WorkCounters counters;
+  ObstacleField<3> field;
+  field.assign(obstacles, counters);
+  const OneLink one(Vector3d(-0.1, 0, 0), Vector3d(0.1, 0, 0));
+  EXPECT_EQ(field.first_hit(one.pose, one.link), 5000);
 }
 
 TEST(NeighbourLists, ThoseThatAreIncompleteProveNothing) {

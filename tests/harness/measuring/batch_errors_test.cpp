@@ -23,7 +23,12 @@ TEST(BatchErrors, ThereAreNone) {
       const testing::ScopedTrace trace(__FILE__, __LINE__, std::string(name_of(family)));
       const BatchErrors in_double = batch_errors_in_double(family, dimension, kPairs, 1);
       expect_no_errors(in_double, family);
-      EXPECT_EQ(in_double.in_band, family == PairFamily::kTangent ? kPairs : 0);
+      if (family == PairFamily::kTangent) {
+        EXPECT_GT(in_double.in_band, kPairs / 2);
+        EXPECT_LT(in_double.in_band, kPairs * 9 / 10);
+      } else {
+        EXPECT_EQ(in_double.in_band, 0);
+      }
       const BatchErrors in_float = batch_errors_in_float(family, dimension, kPairs, 1);
       expect_no_errors(in_float, family);
       EXPECT_EQ(in_float.hits, in_double.hits) << "the same pairs";

@@ -1,6 +1,7 @@
 // What speed is compared with does the work that its name says.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 #include <vector>
 
@@ -61,10 +62,13 @@ TEST(KdlControlLoop, FollowsThePath) {
       if (problem.dimension() == 2 && task == KdlTask::kPose)
         continue;  // no such task in the plane
       KdlControlLoop loop(problem, task);
+      double turned = 0;
       for (int i = 0; i < 30; ++i) {
         loop.run(7);
         EXPECT_LT(loop.tip_error(), 1e-3) << i;
+        turned = std::max(turned, loop.turn_error());
       }
+      EXPECT_EQ(turned < 1e-3, task == KdlTask::kPose) << turned;
     }
   }
 }

@@ -207,7 +207,12 @@ TEST_F(ProgramRun, ARecordNamesTheCallAndTheBuild) {
             "bqsa-bench run " + kPlanar + " --method none --out " + out_);
   EXPECT_THAT(provenance["date"].get<std::string>(), ::testing::MatchesRegex("20[0-9-]+T[0-9:]+Z"));
   EXPECT_EQ(provenance["out_of_tree"], nlohmann::json::array());
-  EXPECT_EQ(provenance["libraries"]["Eigen"].get<std::string>().substr(0, 2), "3.");
+  const nlohmann::json& libraries = provenance["libraries"];
+  EXPECT_EQ(libraries["Eigen"].get<std::string>().substr(0, 2), "3.");
+  EXPECT_EQ(libraries.size(), 11u);
+  for (const auto& [name, version] : libraries.items()) {
+    EXPECT_THAT(version.get<std::string>(), ::testing::MatchesRegex("[0-9]+[.][0-9.]+")) << name;
+  }
   EXPECT_EQ(records().at(0)["scenario"]["sha256"].get<std::string>().size(), 64u);
 }
 
