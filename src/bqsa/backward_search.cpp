@@ -80,7 +80,7 @@ void BackwardSearch::answer(const StepInput& input, StepOutput& output) {
 }
 
 /// Whether lists that were made before prove that nothing is in the way of the prediction.
-bool BackwardSearch::is_clear(const StepInput& input) const {
+bool BackwardSearch::is_clear(const StepInput& input) {
   if (!searches_space() || settings_.release == Release::kFirst) return false;
   const double distance = problem_->link_radius + problem_->margin + settings_.safety_offset;
   return forbidden_step(*problem_, input.q, q_) == Infeasible::kNot &&

@@ -96,7 +96,7 @@ class BackwardSearch : public ReactiveMethod {
   Infeasible release_links(const StepInput& input, StepOutput& output);
   void start_at(const JointVector& q);
   bool predict(const StepInput& input);
-  bool is_clear(const StepInput& input) const;
+  bool is_clear(const StepInput& input);
   void answer(const StepInput& input, StepOutput& output);
 
   MotionCertificate certificate_;

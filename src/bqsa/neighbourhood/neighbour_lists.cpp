@@ -32,6 +32,23 @@ NeighbourLists::NeighbourLists(std::shared_ptr<const ObstacleIndex> index, FreeB
   scratch_.resize(std::min(obstacles, kMostBoxes));
 }
 
+/// The same link by link. If all are free, there is a new pose with room around it.
+bool NeighbourLists::find_clear_pose(std::span<const Link> links, const Passage& passage) {
+  double way = std::numeric_limits<double>::infinity();
+  double reach = way;
+  for (const Link& link : links) {
+    const List& list = lists_[static_cast<std::size_t>(link.end)];
+    const Passage of_link{passage.tick, link,        passage.from,
+                          passage.to,   passage.sag, passage.distance};
+    const double left = list.clear - std::sqrt(ends_squared(list, of_link));
+    if (!covers(list, of_link) || !(left > passage.sag)) return false;
+    way = std::min(way, left);
+    reach = std::min(reach, list.reach);
+  }
+  clear_pose_ = {passage.to.p_WO, index_->period(passage.tick), reach, kRoundedDown * way};
+  return true;
+}
+
 void NeighbourLists::make(const Passage& passage, List& list) {
   const Link& link = passage.link;
   const auto middle = [&passage](int point) -> Eigen::Vector3d {

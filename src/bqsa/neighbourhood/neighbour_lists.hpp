@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "bqsa/neighbourhood/obstacle_index.hpp"
@@ -31,7 +32,8 @@ struct Passage {
 /// Verlet lists, as in molecular dynamics (Verlet, Phys. Rev. 159, 1967, 98-103): for each link the
 /// obstacles that could come near it while its ends stay within a *skin* of where they were when the list
 /// was made. Each is listed with how far the ends may go before it has to be asked. So most ticks
-/// compare where the ends are with where they were, and ask nothing.
+/// compare where the ends are with where they were, and ask nothing. What is left of all these ways at one
+/// pose is room around it for the whole arm; most ticks find it by one comparison for all links.
 ///
 /// Lists change no answer: they leave out only what is proven to be free (ObstacleIndex). A list is made
 /// anew when its link leaves the skin, when more distance is asked than it was made for, or when
@@ -47,12 +49,10 @@ class NeighbourLists {
 
   const std::shared_ptr<const ObstacleIndex>& index() const { return index_; }
 
-  /// Whether there is a list that proves the passage free. Makes no list.
-  bool is_clear(const Passage& passage) const {
-    const List& list = lists_[static_cast<std::size_t>(passage.link.end)];
-    const double straight = list.clear - passage.sag;
-    return covers(list, passage) && straight > 0 &&
-           ends_squared(list, passage) < straight * straight;
+  /// Whether the lists that there are prove the passage of all links free. Makes no list.
+  /// @param passage  of the arm; its link is not looked at
+  bool all_clear(std::span<const Link> links, const Passage& passage) {
+    return is_around_clear_pose(passage) || find_clear_pose(links, passage);
   }
 
   /// The first obstacle, counted from `from`, that is not proven to be free and for which `asked(obstacle)` is
@@ -106,6 +106,24 @@ class NeighbourLists {
     std::vector<Neighbour> neighbours = {};  ///< in increasing order
   };
 
+  /// A pose that lists have proven to be free, with room around it.
+  struct ClearPose {
+    ChainPose::Columns<kMaxPoints> p_WO;
+    int period = -1;    ///< of obstacles on the move
+    double reach = -1;  ///< distance up to which nothing is there [m]
+    double way = 0;     ///< that all points may go until something may be [m]
+  };
+
+  /// By the norm over all points at once, which is no less than any point's way.
+  bool is_around_clear_pose(const Passage& passage) const {
+    const double straight = clear_pose_.way - passage.sag;
+    const double squared = straight * straight;
+    return passage.distance <= clear_pose_.reach &&
+           clear_pose_.period == index_->period(passage.tick) && straight > 0 &&
+           (passage.to.p_WO - clear_pose_.p_WO).squaredNorm() < squared &&
+           (passage.from.p_WO - clear_pose_.p_WO).squaredNorm() < squared;
+  }
+
   /// Square of how far the link's ends are, in both poses, from where they were, at most [m²].
   static double ends_squared(const List& list, const Passage& passage) {
     const auto of_pose = [&](const ChainPose& pose) {
@@ -128,6 +146,7 @@ class NeighbourLists {
     return passage.distance <= list.reach && list.period == index_->period(passage.tick);
   }
 
+  bool find_clear_pose(std::span<const Link> links, const Passage& passage);
   void make(const Passage& passage, List& list);
   bool fill(double skin, List& list);
   double clear_way(int obstacle, double gap, const List& list) const;
@@ -135,6 +154,7 @@ class NeighbourLists {
   std::shared_ptr<const ObstacleIndex> index_;
   FreeBy free_by_;
   std::array<List, kMaxPoints> lists_;  ///< by the link's end
+  ClearPose clear_pose_;
   std::vector<std::int32_t> scratch_;
   WorkCounters* counters_;
 };
