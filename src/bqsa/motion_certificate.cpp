@@ -108,7 +108,8 @@ MotionCertificate::PointBounds MotionCertificate::bounds_of(const Link& link) co
 
 /// By bounds that hold for all points.
 bool MotionCertificate::is_clear(int tick, const JointVector& q0, const ChainPose& pose0,
-                                 const JointVector& q1, const ChainPose& pose1, double distance) {
+                                 const JointVector& q1, const ChainPose& pose1,
+                                 double distance) const {
   const std::span<const Link> links = problem_->chain.links();
   if (links.empty()) return true;
   const double turn = (q1 - q0).cwiseAbs().sum();

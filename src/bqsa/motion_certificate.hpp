@@ -72,7 +72,7 @@ class MotionCertificate {
   /// Whether lists that were made before prove the motion, and that all links keep `distance` [m] from
   /// all obstacles where it ends. Asks for nothing: false says nothing.
   bool is_clear(int tick, const JointVector& q0, const ChainPose& pose0, const JointVector& q1,
-                const ChainPose& pose1, double distance);
+                const ChainPose& pose1, double distance) const;
 
  private:
   /// Parts shorter than 2^-kMaxHalvings of the motion are not halved again.

@@ -32,8 +32,7 @@ struct Passage {
 /// Verlet lists, as in molecular dynamics (Verlet, Phys. Rev. 159, 1967, 98-103): for each link the
 /// obstacles that could come near it while its ends stay within a *skin* of where they were when the list
 /// was made. Each is listed with how far the ends may go before it has to be asked. So most ticks
-/// compare where the ends are with where they were, and ask nothing. What is left of all these ways at one
-/// pose is room around it for the whole arm; most ticks find it by one comparison for all links.
+/// compare where the ends are with where they were, and ask nothing.
 ///
 /// Lists change no answer: they leave out only what is proven to be free (ObstacleIndex). A list is made
 /// anew when its link leaves the skin, when more distance is asked than it was made for, or when
@@ -49,10 +48,21 @@ class NeighbourLists {
 
   const std::shared_ptr<const ObstacleIndex>& index() const { return index_; }
 
-  /// Whether the lists that there are prove the passage of all links free. Makes no list.
-  /// @param passage  of the arm; its link is not looked at
-  bool all_clear(std::span<const Link> links, const Passage& passage) {
-    return is_around_clear_pose(passage) || find_clear_pose(links, passage);
+  /// Whether there are lists that prove the passage free, for each of the links. Makes no list.
+  /// @param passage  of the arm; its own link is not looked at
+  bool all_clear(std::span<const Link> links, const Passage& passage) const {
+    const int period = index_->period(passage.tick);
+    return std::ranges::all_of(links, [&](const Link& link) {
+      const List& list = lists_[static_cast<std::size_t>(link.end)];
+      const double straight = list.clear - passage.sag;
+      const double squared = straight * straight;
+      const auto stays = [&](const ChainPose& pose) {
+        return (pose.p_WO.middleCols<2>(link.start) - list.ends).squaredNorm() < squared ||
+               ends_squared(list, link, pose) < squared;
+      };
+      return list.reach >= passage.distance && list.period == period && straight > 0 &&
+             stays(passage.to) && stays(passage.from);
+    });
   }
 
   /// The first obstacle, counted from `from`, that is not proven to be free and for which `asked(obstacle)` is
@@ -94,44 +104,33 @@ class NeighbourLists {
     float clear_squared;  ///< square of the way up to which it is free [m²]
   };
   struct List {
-    Eigen::Vector3d start = Eigen::Vector3d::Zero();  ///< of the link when the list was made
-    Eigen::Vector3d end = Eigen::Vector3d::Zero();
-    int period = -1;           ///< of obstacles on the move
-    double reach = -1;         ///< distance for which it was made [m]
-    double skin = 0;           ///< wanted [m]
-    double skin_squared = 0;   ///< of the skin that it has
+    Eigen::Matrix<double, 3, 2> ends =
+        Eigen::Matrix<double, 3, 2>::Zero();  ///< of the link when it was made
+    int period = -1;                          ///< of obstacles on the move
+    double reach = -1;                        ///< distance for which it was made [m]
+    double skin = 0;                          ///< wanted [m]
+    double skin_squared = 0;                  ///< of the skin that it has
     double clear_squared = 0;  ///< square of the way up to which all obstacles are free [m²]
     double clear = 0;          ///< that way [m]
     bool everything = false;   ///< asks all obstacles
     std::vector<Neighbour> neighbours = {};  ///< in increasing order
+
+    Eigen::Vector3d start() const { return ends.col(0); }
+    Eigen::Vector3d end() const { return ends.col(1); }
   };
 
-  /// A pose that lists have proven to be free, with room around it.
-  struct ClearPose {
-    ChainPose::Columns<kMaxPoints> p_WO;
-    int period = -1;    ///< of obstacles on the move
-    double reach = -1;  ///< distance up to which nothing is there [m]
-    double way = 0;     ///< that all points may go until something may be [m]
-  };
-
-  /// By the norm over all points at once, which is no less than any point's way.
-  bool is_around_clear_pose(const Passage& passage) const {
-    const double straight = clear_pose_.way - passage.sag;
-    const double squared = straight * straight;
-    return passage.distance <= clear_pose_.reach &&
-           clear_pose_.period == index_->period(passage.tick) && straight > 0 &&
-           (passage.to.p_WO - clear_pose_.p_WO).squaredNorm() < squared &&
-           (passage.from.p_WO - clear_pose_.p_WO).squaredNorm() < squared;
+  /// Square of how far the link's ends are from where they were, at most [m²].
+  static double ends_squared(const List& list, const Link& link, const ChainPose& pose) {
+    return std::max((pose.p_WO.col(link.start) - list.start()).squaredNorm(),
+                    (pose.p_WO.col(link.end) - list.end()).squaredNorm());
   }
 
-  /// Square of how far the link's ends are, in both poses, from where they were, at most [m²].
+  /// The same in both poses.
   static double ends_squared(const List& list, const Passage& passage) {
-    const auto of_pose = [&](const ChainPose& pose) {
-      return std::max((pose.p_WO.col(passage.link.start) - list.start).squaredNorm(),
-                      (pose.p_WO.col(passage.link.end) - list.end).squaredNorm());
-    };
-    const double squared = of_pose(passage.to);
-    return &passage.from == &passage.to ? squared : std::max(squared, of_pose(passage.from));
+    const double squared = ends_squared(list, passage.link, passage.to);
+    return &passage.from == &passage.to
+               ? squared
+               : std::max(squared, ends_squared(list, passage.link, passage.from));
   }
 
   /// The same for all of the passage.
@@ -146,7 +145,6 @@ class NeighbourLists {
     return passage.distance <= list.reach && list.period == index_->period(passage.tick);
   }
 
-  bool find_clear_pose(std::span<const Link> links, const Passage& passage);
   void make(const Passage& passage, List& list);
   bool fill(double skin, List& list);
   double clear_way(int obstacle, double gap, const List& list) const;
@@ -154,7 +152,6 @@ class NeighbourLists {
   std::shared_ptr<const ObstacleIndex> index_;
   FreeBy free_by_;
   std::array<List, kMaxPoints> lists_;  ///< by the link's end
-  ClearPose clear_pose_;
   std::vector<std::int32_t> scratch_;
   WorkCounters* counters_;
 };

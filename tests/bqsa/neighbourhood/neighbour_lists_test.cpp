@@ -457,7 +457,7 @@ double distance_to_segment(const Vector3d& point, const Vector3d& p1, const Vect
   return (p1 + t * way - point).norm();
 }
 
-TEST(NeighbourLists, RoomAroundAClearPoseIsThatOfItsLinkWithTheLeast) {
+TEST(NeighbourLists, PassagesThatAreAllClearKeepTheirDistance) {
   constexpr double kRadius = 0.1;
   constexpr int kPoints = 4;
   const std::vector<Link> links = {{1, 0, 1}, {2, 1, 2}, {3, 2, 3}};
