@@ -8,7 +8,7 @@ namespace bqsa {
 void PlanarTip::assign(const SerialChain& chain, const ChainPose& pose) {
   joints_ = chain.joints();
   const double* p = pose.p_WO.data();
-  const double* tip = p + 3 * (chain.points() - 1);
+  const double* tip = &pose.p_WO(0, chain.points() - 1);
   double turn_x = 0, turn_y = 0, xx = 0, xy = 0, yy = 0;
   for (int j = 0; j < joints_; ++j, p += 3) {
     const double* next = j + 1 < joints_ ? p + 3 : tip;
