@@ -1,5 +1,7 @@
 #include "bqsa/backward_search.hpp"
 
+#include <cmath>
+
 #include "bqsa/tip_closure.hpp"
 
 namespace bqsa {
@@ -118,12 +120,13 @@ void BackwardSearch::start_at(const JointVector& q) {
 bool BackwardSearch::predict(const StepInput& input) {
   const SerialChain& chain = problem_->chain;
   start_at(input.q);
+  x_dot_ = (input.p_WT_desired - pose_.tip()).head(chain.dimension()) / problem_->dt;
+  if (chain.in_plane() && !leans_ && predict_in_plane(input)) return true;
+
   chain.jacobian(pose_, chain.points() - 1, J_tip_);
   ++counters_.jacobians;
   ik_start_.assign(J_tip_, settings_.ik);
   ++counters_.linear_solves;
-  x_dot_ = (input.p_WT_desired - pose_.tip()).head(chain.dimension()) / problem_->dt;
-
   JointVector q_dot;
   ik_start_.solve(x_dot_, q_dot);
   if (leans_) {
@@ -141,6 +144,38 @@ bool BackwardSearch::predict(const StepInput& input) {
   return correct_tip(input, ik_start_, x_dot_.norm() * problem_->dt);
 }
 
+/// The same for a planar arm where nothing is damped. All corrections are along the rows of the first
+/// Jacobian, q = q_start + Jᵀ y, and Newton's method finds y. False, and all as it was, if it does not.
+bool BackwardSearch::predict_in_plane(const StepInput& input) {
+  constexpr double kSurely = 0.1;  // part of the tolerance that may be expected to be left
+  const Eigen::Vector2d way = (input.p_WT_desired - pose_.tip()).head<2>();
+  planar_tip_.assign(problem_->chain, pose_);
+  ++counters_.jacobians;
+  ++counters_.linear_solves;
+  Eigen::Matrix2d inverse;
+  if (!undamped_inverse(planar_tip_.gram(), settings_.ik, inverse)) return false;
+  Eigen::Vector2d y = inverse * way;
+  const double squared_before = way.squaredNorm();
+  for (int k = 0; k < settings_.corrections; ++k) {
+    const PlanarTip::Moved moved = planar_tip_.move(y);
+    ++counters_.kinematics;
+    if (!moved.slight) return false;
+    const Eigen::Vector2d left = way - moved.way;
+    y += moved.way_per_y.inverse() * left;
+    // What a way of d leaves is of order d²; so what is left after this is of order left³ / way².
+    const double squared = left.squaredNorm();
+    const double enough = kSurely * settings_.tip_tolerance * squared_before;
+    if (squared * squared * squared <= enough * enough) break;
+  }
+  planar_tip_.step(y, q_);
+  forward();
+  const double error = (input.p_WT_desired - pose_.tip()).norm();
+  if (settings_.corrections == 0 ? std::isfinite(error) : error <= settings_.tip_tolerance)
+    return true;
+  start_at(input.q);
+  return false;
+}
+
 MotionCertificate::Result BackwardSearch::finish(const StepInput& input, const JointVector&,
                                                  StepOutput&) {
   return certify(input);
@@ -149,6 +184,8 @@ MotionCertificate::Result BackwardSearch::finish(const StepInput& input, const J
 JointVector BackwardSearch::hybrid_step(const JointVector& q, const JointVector& weights,
                                         const JointVector& phi) {
   HybridIkResult ik;
+  problem_->chain.jacobian(pose_start_, problem_->chain.points() - 1, J_tip_);
+  ++counters_.jacobians;
   solve_hybrid_ik(J_tip_, x_dot_, weights, phi, settings_.ik, ik);
   ++counters_.linear_solves;
   return q + problem_->dt * ik.q_dot;

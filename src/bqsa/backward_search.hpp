@@ -4,6 +4,7 @@
 
 #include "bqsa/bqsa_settings.hpp"
 #include "bqsa/joint_box.hpp"
+#include "bqsa/kinematics/planar_tip.hpp"
 #include "bqsa/method.hpp"
 #include "bqsa/motion_certificate.hpp"
 
@@ -96,6 +97,7 @@ class BackwardSearch : public ReactiveMethod {
   Infeasible release_links(const StepInput& input, StepOutput& output);
   void start_at(const JointVector& q);
   bool predict(const StepInput& input);
+  bool predict_in_plane(const StepInput& input);
   bool is_clear(const StepInput& input) const;
   void answer(const StepInput& input, StepOutput& output);
 
@@ -104,6 +106,7 @@ class BackwardSearch : public ReactiveMethod {
   bool answered_ = false;  ///< whether q_ is the last answer
   TaskJacobian J_tip_;     ///< at the start of the tick
   TrackingIk ik_start_;    ///< of J_tip_
+  PlanarTip planar_tip_;   ///< of pose_start_
   TaskVector x_dot_;       ///< [m/s]
   JointVector lean_;       ///< [rad/s]
   bool leans_ = false;     ///< whether it is not zero

@@ -85,6 +85,23 @@ void solve_hybrid_ik(const TaskJacobian& J, const TaskVector& x_dot, const Joint
   result.residual = residual_of(svd, rank, lambda_squared, x_dot);
 }
 
+template <int Rows>
+bool undamped_inverse(const Eigen::Matrix<double, Rows, Rows>& G, const HybridIkSettings& settings,
+                      Eigen::Matrix<double, Rows, Rows>& inverse) {
+  const double threshold = settings.singular_threshold * settings.singular_threshold;
+  const double least = std::max((1 + kMargin) * threshold, kWellConditioned * G.trace());
+  Eigen::Matrix<double, Rows, Rows> beyond = G;
+  beyond.diagonal().array() -= least;
+  if (!positive_definite(beyond)) return false;
+  inverse = G.inverse();
+  return true;
+}
+
+template bool undamped_inverse<2>(const Eigen::Matrix2d&, const HybridIkSettings&,
+                                  Eigen::Matrix2d&);
+template bool undamped_inverse<3>(const Eigen::Matrix3d&, const HybridIkSettings&,
+                                  Eigen::Matrix3d&);
+
 void TrackingIk::assign(const TaskJacobian& J, const HybridIkSettings& settings) {
   settings_ = settings;
   rows_ = static_cast<int>(J.rows());
@@ -93,7 +110,6 @@ void TrackingIk::assign(const TaskJacobian& J, const HybridIkSettings& settings)
   if (!regular_) svd_.decompose(J);
 }
 
-/// Inverts J Jᵀ if its smallest eigenvalue surely is s_0² or more, and not too small to be inverted.
 template <int Rows>
 bool TrackingIk::invert(const TaskJacobian& J) {
   for (std::size_t i = 0; i < Rows; ++i) {
@@ -109,12 +125,9 @@ bool TrackingIk::invert(const TaskJacobian& J) {
       G(i, k) = G(k, i) = sum;
     }
   }
-  const double threshold = settings_.singular_threshold * settings_.singular_threshold;
-  const double least = std::max((1 + kMargin) * threshold, kWellConditioned * G.trace());
-  Eigen::Matrix<double, Rows, Rows> beyond = G;
-  beyond.diagonal().array() -= least;
-  if (!positive_definite(beyond)) return false;
-  inverse_.template topLeftCorner<Rows, Rows>() = G.inverse();
+  Eigen::Matrix<double, Rows, Rows> inverse;
+  if (!undamped_inverse(G, settings_, inverse)) return false;
+  inverse_.template topLeftCorner<Rows, Rows>() = inverse;
   return true;
 }
 

@@ -44,6 +44,13 @@ void solve_hybrid_ik(const TaskJacobian& J, const TaskVector& x_dot, const Joint
                      const JointVector& phi, const HybridIkSettings& settings,
                      HybridIkResult& result);
 
+/// The inverse of G = J Jᵀ, J of 2 or 3 rows, where no velocity can call for damping and the inverse is
+/// accurate: where the smallest eigenvalue of G surely is s_0² or more, and not too small beside the
+/// others. False elsewhere.
+template <int Rows>
+bool undamped_inverse(const Eigen::Matrix<double, Rows, Rows>& G, const HybridIkSettings& settings,
+                      Eigen::Matrix<double, Rows, Rows>& inverse);
+
 /// The same with W = I for one Jacobian, asked for any number of velocities.
 ///
 /// Where no velocity can call for damping, because J Jᵀ - s_0² I is positive definite, q_dot is

@@ -110,14 +110,13 @@ MotionCertificate::PointBounds MotionCertificate::bounds_of(const Link& link) co
 bool MotionCertificate::is_clear(int tick, const JointVector& q0, const ChainPose& pose0,
                                  const JointVector& q1, const ChainPose& pose1,
                                  double distance) const {
-  double turn = 0;
-  for (int j = 0; j < problem_->chain.joints(); ++j) turn += std::abs(q1(j) - q0(j));
+  const std::span<const Link> links = problem_->chain.links();
+  if (links.empty()) return true;
+  const double turn = (q1 - q0).cwiseAbs().sum();
   const PointBounds bounds{turn * reach_, turn * turn * reach_};
-  return std::ranges::all_of(problem_->chain.links(), [&](const Link& link) {
-    Passage passage = passage_of(tick, link, pose0, pose1, bounds);
-    passage.distance = std::max(passage.distance, distance);
-    return neighbours_->is_clear(passage);
-  });
+  Passage passage = passage_of(tick, links.front(), pose0, pose1, bounds);
+  passage.distance = std::max(passage.distance, distance);
+  return neighbours_->all_clear(links, passage);
 }
 
 MotionCertificate::Pair MotionCertificate::pair_of(int link, int obstacle, int tick,

@@ -176,6 +176,13 @@ void SerialChain::jacobian(const ChainPose& pose, int point, TaskJacobian& J) co
   const int moving = moving_joints(point);
   J.rightCols(joints_ - moving).setZero();
   const Eigen::Vector3d p = pose.p_WO.col(point);
+  if (in_plane_) {
+    for (int j = 0; j < moving; ++j) {  // every joint is where its link starts
+      J(0, j) = pose.p_WO(1, j) - p.y();
+      J(1, j) = p.x() - pose.p_WO(0, j);
+    }
+    return;
+  }
   if (dimension() == 2) {
     for (int j = 0; j < moving; ++j) {
       J(0, j) = pose.pivot_W(1, j) - p.y();

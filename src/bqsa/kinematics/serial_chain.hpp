@@ -57,6 +57,7 @@ class SerialChain {
   int joints() const { return joints_; }
   int dimension() const { return description_.dimension; }  ///< rows of the tip task: 2 or 3
   int points() const { return points_; }                    ///< columns of ChainPose::p_WO
+  bool in_plane() const { return in_plane_; }               ///< of dimension 2, in standard form
   std::span<const Link> links() const { return links_; }    ///< base to tip
 
   /// All end-points and joint axes for q [rad].
@@ -83,7 +84,7 @@ class SerialChain {
   ChainDescription description_;
   int joints_;
   int points_;
-  bool in_plane_;  ///< of dimension 2, in standard form
+  bool in_plane_;
   Angles offset_{}, a_{}, d_{}, cos_alpha_{}, sin_alpha_{};
   std::vector<Link> links_;
   std::vector<int> moving_joints_;

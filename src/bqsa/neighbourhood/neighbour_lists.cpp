@@ -40,11 +40,10 @@ void NeighbourLists::make(const Passage& passage, List& list) {
   const Eigen::Vector3d base = passage.to.p_WO.col(0);
   const bool first = list.reach < 0, crowded = list.everything;
   const std::size_t length = list.neighbours.size();
-  list.start = middle(link.start);
-  list.end = middle(link.end);
+  list.ends << middle(link.start), middle(link.end);
   list.period = index_->period(passage.tick);
 
-  const double scale = std::max((list.start - base).norm(), (list.end - base).norm());
+  const double scale = std::max((list.start() - base).norm(), (list.end() - base).norm());
   const double needed = kRoundedUp * std::sqrt(way_squared(list, passage));
   list.everything = !std::isfinite(scale + needed + passage.distance);
   if (list.everything) {
@@ -72,7 +71,7 @@ bool NeighbourLists::fill(double skin, List& list) {
   list.neighbours.clear();
   bool fits = true;
   const bool all_visited = index_->visit_near(
-      list.start, list.end, proven, list.reach, list.period, *counters_, scratch_,
+      list.start(), list.end(), proven, list.reach, list.period, *counters_, scratch_,
       [&](int obstacle, double gap) {
         if (gap > proven) return;
         const double way = clear_way(obstacle, gap, list);
@@ -99,12 +98,12 @@ double NeighbourLists::clear_way(int obstacle, double gap, const List& list) con
   if (!(rounding <= 0.25)) return gap;
   const Eigen::Vector3d& axes = shape.semi_axes();
   ++counters_->quadratics;
-  const Eigen::Vector3d u1 = unit_point(shape, list.start);
-  const Eigen::Vector3d u2 = unit_point(shape, list.end);
+  const Eigen::Vector3d u1 = unit_point(shape, list.start());
+  const Eigen::Vector3d u2 = unit_point(shape, list.end());
   const Eigen::Vector3d u = u1 + vertex(polar_form<double, 3>(u1, u2)) * (u2 - u1);
   const double steepness = (shape.unit_map().transpose() * u).norm();
   if (!(steepness > 0)) return gap;
-  const double length = (list.end - list.start).norm();
+  const double length = (list.end() - list.start()).norm();
   const double distance = list.reach + ObstacleIndex::rounding_of_distance(length);
   const double sigma = (1 + distance / axes.minCoeff()) * (1 + 2 * rounding);
   constexpr double kRounding = 64 * std::numeric_limits<double>::epsilon();

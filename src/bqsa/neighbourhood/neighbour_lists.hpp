@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "bqsa/neighbourhood/obstacle_index.hpp"
@@ -47,12 +48,21 @@ class NeighbourLists {
 
   const std::shared_ptr<const ObstacleIndex>& index() const { return index_; }
 
-  /// Whether there is a list that proves the passage free. Makes no list.
-  bool is_clear(const Passage& passage) const {
-    const List& list = lists_[static_cast<std::size_t>(passage.link.end)];
-    const double straight = list.clear - passage.sag;
-    return covers(list, passage) && straight > 0 &&
-           ends_squared(list, passage) < straight * straight;
+  /// Whether there are lists that prove the passage free, for each of the links. Makes no list.
+  /// @param passage  of the arm; its own link is not looked at
+  bool all_clear(std::span<const Link> links, const Passage& passage) const {
+    const int period = index_->period(passage.tick);
+    return std::ranges::all_of(links, [&](const Link& link) {
+      const List& list = lists_[static_cast<std::size_t>(link.end)];
+      const double straight = list.clear - passage.sag;
+      const double squared = straight * straight;
+      const auto stays = [&](const ChainPose& pose) {
+        return (pose.p_WO.middleCols<2>(link.start) - list.ends).squaredNorm() < squared ||
+               ends_squared(list, link, pose) < squared;
+      };
+      return list.reach >= passage.distance && list.period == period && straight > 0 &&
+             stays(passage.to) && stays(passage.from);
+    });
   }
 
   /// The first obstacle, counted from `from`, that is not proven to be free and for which `asked(obstacle)` is
@@ -94,27 +104,34 @@ class NeighbourLists {
     float clear_squared;  ///< square of the way up to which it is free [m²]
   };
   struct List {
-    Eigen::Vector3d start = Eigen::Vector3d::Zero();  ///< of the link when the list was made
-    Eigen::Vector3d end = Eigen::Vector3d::Zero();
-    int period = -1;           ///< of obstacles on the move
-    double reach = -1;         ///< distance for which it was made [m]
-    double skin = 0;           ///< wanted [m]
-    double skin_squared = 0;   ///< of the skin that it has
+    Eigen::Matrix<double, 3, 2> ends =
+        Eigen::Matrix<double, 3, 2>::Zero();  ///< of the link when it was made
+    int period = -1;                          ///< of obstacles on the move
+    double reach = -1;                        ///< distance for which it was made [m]
+    double skin = 0;                          ///< wanted [m]
+    double skin_squared = 0;                  ///< of the skin that it has
     double clear_squared = 0;  ///< square of the way up to which all obstacles are free [m²]
     double clear = 0;          ///< that way [m]
     bool everything = false;   ///< asks all obstacles
     std::vector<Neighbour> neighbours = {};  ///< in increasing order
+
+    Eigen::Vector3d start() const { return ends.col(0); }
+    Eigen::Vector3d end() const { return ends.col(1); }
   };
 
-  /// Square of how far the link's ends are, in both poses, from where they were, at most [m²]. No number
-  /// if one of the second pose is none: then its end is none, which std::max keeps as its first.
+  /// Square of how far the link's ends are from where they were, at most [m²]. No number if one of them is none: then
+  /// the link's end is none, which std::max keeps as its first.
+  static double ends_squared(const List& list, const Link& link, const ChainPose& pose) {
+    return std::max((pose.p_WO.col(link.end) - list.end()).squaredNorm(),
+                    (pose.p_WO.col(link.start) - list.start()).squaredNorm());
+  }
+
+  /// The same in both poses; no number if one of the second is none.
   static double ends_squared(const List& list, const Passage& passage) {
-    const auto of_pose = [&](const ChainPose& pose) {
-      return std::max((pose.p_WO.col(passage.link.end) - list.end).squaredNorm(),
-                      (pose.p_WO.col(passage.link.start) - list.start).squaredNorm());
-    };
-    const double squared = of_pose(passage.to);
-    return &passage.from == &passage.to ? squared : std::max(squared, of_pose(passage.from));
+    const double squared = ends_squared(list, passage.link, passage.to);
+    return &passage.from == &passage.to
+               ? squared
+               : std::max(squared, ends_squared(list, passage.link, passage.from));
   }
 
   /// The same for all of the passage.

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "bqsa/kinematics/planar_tip.hpp"
 #include "support/allocation_guard.hpp"
 #include "support/sampling.hpp"
 
@@ -144,6 +145,50 @@ TEST_P(RandomChains, FromAPoseNearbyAllIsAsFromNothing) {
       ASSERT_LT((pose.pivot_W - expected.pivot_W).norm(), 1e-14) << "case " << i;
     }
   });
+}
+
+class RandomPlanarChains : public RandomChains {};
+INSTANTIATE_TEST_SUITE_P(Kinds, RandomPlanarChains, testing::Values(Kind::kPlanar),
+                         [](const auto& parameter) { return name_of(parameter.param); });
+
+TEST_P(RandomPlanarChains, TipStepsAreThoseOfTheWholeChain) {
+  int slight = 0, large = 0;
+  for_all([&](int i, const SerialChain& chain, const JointVector& q, Generator& generator) {
+    const ChainPose pose = pose_of(chain, q);
+    TaskJacobian J;
+    chain.jacobian(pose, chain.points() - 1, J);
+    PlanarTip tip;
+    tip.assign(chain, pose);
+    ASSERT_LT((tip.gram() - J * J.transpose()).norm(), 1e-13) << "case " << i;
+
+    const auto after = [&](const Eigen::Vector2d& y) -> Eigen::Vector2d {
+      return (pose_of(chain, q + J.transpose() * y).tip() - pose.tip()).head<2>();
+    };
+    const Eigen::Vector2d y = test_support::log_uniform(generator, 1e-4, 0.3) *
+                              test_support::random_direction<2>(generator);
+    JointVector q_after = q;
+    tip.step(y, q_after);
+    ASSERT_LT((q_after - q - J.transpose() * y).norm(), 1e-14) << "case " << i;
+
+    double turn = 0, largest = 0;
+    for (int j = 0; j < chain.joints(); ++j) {
+      turn += J.col(j).dot(y);
+      largest = std::max(largest, std::abs(turn));
+    }
+    const PlanarTip::Moved moved = tip.move(y);
+    ASSERT_EQ(moved.slight, largest <= kSlightTurn) << "case " << i;
+    ++(moved.slight ? slight : large);
+    if (!moved.slight) return;
+    ASSERT_LT((moved.way - after(y)).norm(), 1e-11) << "case " << i;
+    for (int k = 0; k < 2; ++k) {
+      constexpr double kStep = 1e-6;
+      const Eigen::Vector2d d = kStep * Eigen::Vector2d::Unit(k);
+      const Eigen::Vector2d difference = (after(y + d) - after(y - d)) / (2 * kStep);
+      ASSERT_LT((moved.way_per_y.col(k) - difference).norm(), 1e-7) << "case " << i;
+    }
+  });
+  EXPECT_GT(slight, 100);
+  EXPECT_GT(large, 10);
 }
 
 TEST_P(RandomChains, PointsAreThoseOfTheTextbook) {

@@ -294,6 +294,53 @@ TEST_P(CertificateAmongMany, SaysWhatItSaysOfAllPairs) {
 INSTANTIATE_TEST_SUITE_P(Dimensions, CertificateAmongMany, ::testing::Bool(),
                          [](const auto& planar) { return planar.param ? "Plane" : "Space"; });
 
+TEST_P(CertificateAmongMany, WhatListsProveClearIsCertifiedAndKeepsItsDistance) {
+  const bool planar = GetParam();
+  Generator generator(16);
+  int clear = 0, refused = 0;
+  for (int scene = 0; scene < 40; ++scene) {
+    Problem problem{.name = "some", .chain = random_arm(planar, generator)};
+    problem.obstacles = random_obstacles(generator, static_cast<Crowd>(scene % 4), 5, planar,
+                                         scene % 3 == 0 ? 0.5 : 0);
+    WorkCounters counters, counters_of_all;
+    MotionCertificate certificate;
+    certificate.assign(problem, counters);
+    AllPairsCertificate of_all_pairs;
+    of_all_pairs.assign(problem, counters_of_all);
+    const auto random = [&](double half_width) -> JointVector {
+      return JointVector::NullaryExpr(problem.chain.joints(), [&](Eigen::Index) {
+        return uniform(generator, -half_width, half_width);
+      });
+    };
+    JointVector q0 = random(2);
+    JointVector way;
+    for (int tick = 1; tick <= kTicks; ++tick) {
+      if (tick % 20 == 1) way = random(log_uniform(generator, 1e-4, 0.03));
+      const JointVector q1 = q0 + way;
+      const double distance = tick % 2 == 0 ? 0.02 : 0;
+      ChainPose pose0, pose1;
+      problem.chain.forward(q0, pose0);
+      problem.chain.forward(q1, pose1);
+      const bool is_clear = certificate.is_clear(tick, q0, pose0, q1, pose1, distance);
+      ++(is_clear ? clear : refused);
+      if (is_clear) {
+        ASSERT_TRUE(of_all_pairs.certify(tick, q0, q1).certified) << "scene " << scene;
+        for (const Link& link : problem.chain.links()) {
+          for (const Obstacle& obstacle : problem.obstacles) {
+            const NearestPlane<3> plane = nearest_plane<3>(
+                obstacle.at(tick), pose1.p_WO.col(link.start), pose1.p_WO.col(link.end));
+            ASSERT_GT(plane.distance, distance) << "scene " << scene << " tick " << tick;
+          }
+        }
+      }
+      certificate.certify(tick, q0, q1);
+      q0 = q1;
+    }
+  }
+  EXPECT_GT(clear, 500);
+  EXPECT_GT(refused, 100);
+}
+
 /// A link by its ends.
 struct OneLink {
   ChainPose pose;
@@ -417,7 +464,65 @@ TEST(NeighbourLists, ThoseThatAreIncompleteProveNothing) {
   int visited = 0;
   lists.visit({0, one.link, one.pose, one.pose, 0.2, 0}, [&visited](int) { ++visited; });
   EXPECT_EQ(visited, 6000);
-  EXPECT_FALSE(lists.is_clear({0, one.link, one.pose, one.pose, 0.01, 0}));
+  EXPECT_FALSE(lists.all_clear({&one.link, 1}, {0, one.link, one.pose, one.pose, 0.01, 0}));
+}
+
+double distance_to_segment(const Vector3d& point, const Vector3d& p1, const Vector3d& p2) {
+  const Vector3d way = p2 - p1;
+  const double t = std::clamp((point - p1).dot(way) / way.squaredNorm(), 0.0, 1.0);
+  return (p1 + t * way - point).norm();
+}
+
+TEST(NeighbourLists, PassagesThatAreAllClearKeepTheirDistance) {
+  constexpr double kRadius = 0.1;
+  constexpr int kPoints = 4;
+  const std::vector<Link> links = {{1, 0, 1}, {2, 1, 2}, {3, 2, 3}};
+  Generator generator(17);
+  int clear = 0, refused = 0;
+  for (int scene = 0; scene < 200; ++scene) {
+    std::vector<Obstacle> balls;
+    for (int j = 0; j < 4; ++j) {
+      balls.push_back(
+          {"ball", Ellipsoid(random_vector<3>(generator, 0.8), Vector3d::Constant(kRadius))});
+    }
+    WorkCounters counters;
+    NeighbourLists lists(std::make_shared<ObstacleIndex>(balls), FreeBy::kSpace, counters);
+    ChainPose around;
+    around.p_WO = Eigen::MatrixXd::NullaryExpr(
+        3, kPoints, [&](Eigen::Index, Eigen::Index) { return uniform(generator, -0.6, 0.6); });
+    const auto near_by = [&](double most) {
+      ChainPose pose = around;
+      const double half_width = log_uniform(generator, 1e-4, most);
+      for (int k = 0; k < kPoints; ++k) pose.p_WO.col(k) += random_vector<3>(generator, half_width);
+      return pose;
+    };
+    const auto gap = [&](const ChainPose& pose) {
+      double least = std::numeric_limits<double>::infinity();
+      for (const Link& link : links) {
+        for (const Obstacle& ball : balls) {
+          least =
+              std::min(least, distance_to_segment(ball.shape.center(), pose.p_WO.col(link.start),
+                                                  pose.p_WO.col(link.end)));
+        }
+      }
+      return least - kRadius;
+    };
+    for (const Link& link : links) {
+      lists.visit({0, link, around, around, 0, log_uniform(generator, 1e-3, 0.1)}, [](int) {});
+    }
+    for (int i = 0; i < 100; ++i) {
+      const ChainPose from = near_by(0.3), to = near_by(i % 2 == 0 ? 1e-3 : 0.3);
+      const double sag = log_uniform(generator, 1e-5, 0.1);
+      const double distance = log_uniform(generator, 1e-5, 0.2);
+      const bool is_clear = lists.all_clear(links, {0, links[0], from, to, sag, distance});
+      ++(is_clear ? clear : refused);
+      if (is_clear) {
+        ASSERT_GT(std::min(gap(from), gap(to)), sag + distance) << "scene " << scene << " " << i;
+      }
+    }
+  }
+  EXPECT_GT(clear, 1000);
+  EXPECT_GT(refused, 1000);
 }
 
 TEST(ObstacleIndex, TakesLessThan50BytesAnObstacle) {

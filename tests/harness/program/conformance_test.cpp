@@ -18,6 +18,7 @@
 #include "baselines/skeleton.hpp"
 #include "bqsa/batch/configuration_check.hpp"
 #include "bqsa/hybrid_ik.hpp"
+#include "bqsa/kinematics/planar_tip.hpp"
 #include "harness/conformance.hpp"
 #include "harness/generator/generator.hpp"
 #include "harness/method_spec.hpp"
@@ -44,6 +45,8 @@ Calls g_calls;
   _ZNK4bqsa11SerialChain12forward_fromERKN5Eigen6MatrixIdLin1ELi1ELi0ELi16ELi1EEES5_RNS_9ChainPoseE
 #define BQSA_JACOBIAN \
   _ZNK4bqsa11SerialChain8jacobianERKNS_9ChainPoseEiRN5Eigen6MatrixIdLin1ELin1ELi0ELi6ELi16EEE
+#define BQSA_PLANAR_TIP _ZN4bqsa9PlanarTip6assignERKNS_11SerialChainERKNS_9ChainPoseE
+#define BQSA_MOVE_PLANAR_TIP _ZNK4bqsa9PlanarTip4moveERKN5Eigen6MatrixIdLi2ELi1ELi0ELi2ELi1EEE
 #define BQSA_HYBRID_IK \
   _ZN4bqsa15solve_hybrid_ikERKN5Eigen6MatrixIdLin1ELin1ELi0ELi6ELi16EEERKNS1_IdLin1ELi1ELi0ELi6ELi1EEERKNS1_IdLin1ELi1ELi0ELi16ELi1EEESA_RKNS_16HybridIkSettingsERNS_14HybridIkResultE
 #define BQSA_CERTAINLY_FREE \
@@ -58,6 +61,10 @@ void BQSA_NAME(__real_, BQSA_FORWARD_FROM)(const bqsa::SerialChain*, const bqsa:
                                            const bqsa::JointVector&, bqsa::ChainPose&);
 void BQSA_NAME(__real_, BQSA_JACOBIAN)(const bqsa::SerialChain*, const bqsa::ChainPose&, int,
                                        bqsa::TaskJacobian&);
+void BQSA_NAME(__real_, BQSA_PLANAR_TIP)(bqsa::PlanarTip*, const bqsa::SerialChain&,
+                                         const bqsa::ChainPose&);
+bqsa::PlanarTip::Moved BQSA_NAME(__real_, BQSA_MOVE_PLANAR_TIP)(const bqsa::PlanarTip*,
+                                                                const Eigen::Vector2d&);
 void BQSA_NAME(__real_, BQSA_HYBRID_IK)(const bqsa::TaskJacobian&, const bqsa::TaskVector&,
                                         const bqsa::JointVector&, const bqsa::JointVector&,
                                         const bqsa::HybridIkSettings&, bqsa::HybridIkResult&);
@@ -82,6 +89,18 @@ void BQSA_NAME(__wrap_, BQSA_JACOBIAN)(const bqsa::SerialChain* chain, const bqs
                                        int point, bqsa::TaskJacobian& J) {
   ++g_calls.jacobian;
   BQSA_NAME(__real_, BQSA_JACOBIAN)(chain, pose, point, J);
+}
+
+void BQSA_NAME(__wrap_, BQSA_PLANAR_TIP)(bqsa::PlanarTip* tip, const bqsa::SerialChain& chain,
+                                         const bqsa::ChainPose& pose) {
+  ++g_calls.jacobian;
+  BQSA_NAME(__real_, BQSA_PLANAR_TIP)(tip, chain, pose);
+}
+
+bqsa::PlanarTip::Moved BQSA_NAME(__wrap_, BQSA_MOVE_PLANAR_TIP)(const bqsa::PlanarTip* tip,
+                                                                const Eigen::Vector2d& y) {
+  ++g_calls.forward;
+  return BQSA_NAME(__real_, BQSA_MOVE_PLANAR_TIP)(tip, y);
 }
 
 void BQSA_NAME(__wrap_, BQSA_HYBRID_IK)(const bqsa::TaskJacobian& J, const bqsa::TaskVector& x_dot,
