@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/QR>
+#include <numbers>
+#include <random>
+
 #include "bqsa/bqsa_methods.hpp"
 #include "bqsa/geometry/separation.hpp"
 #include "bqsa/planar_self_motion.hpp"
@@ -63,6 +67,51 @@ TEST(BqsaPlanar, WithoutObstaclesItTracksAndNeverClamps) {
   EXPECT_EQ(run.q.size(), 401U);
   EXPECT_THAT(run.clamped, IsEmpty());
   EXPECT_LT(run.tip_error, 1e-8);
+}
+
+/// Free ticks from random postures to a tip that is `way` away [m]: the joint step is Jᵀ y with J of the start, the
+/// tip arrives, and it takes so many passes of kinematics in the mean.
+double passes_of_free_ticks(double way) {
+  Problem problem = planar_7r();
+  problem.obstacles.clear();
+  const SerialChain& chain = problem.chain;
+  BqsaPlanar method(PlanarVariant::kExact);
+  method.prepare(problem);
+  std::mt19937 generator(5);
+  std::uniform_real_distribution<double> angle(-std::numbers::pi, std::numbers::pi);
+  constexpr int kTicks = 200;
+  ChainPose pose;
+  TaskJacobian J;
+  for (int i = 0; i < kTicks; ++i) {
+    StepInput input;
+    input.tick = 1;
+    input.q = JointVector::NullaryExpr(chain.joints(),
+                                       [&](Eigen::Index) { return 0.4 * angle(generator); });
+    chain.forward(input.q, pose);
+    const double direction = angle(generator);
+    input.p_WT_desired =
+        pose.tip() + way * Eigen::Vector3d(std::cos(direction), std::sin(direction), 0);
+    chain.jacobian(pose, chain.points() - 1, J);
+    StepOutput output;
+    method.step(input, output);
+    EXPECT_EQ(output.state, TickState::kFree) << name_of(output.reason);
+    chain.forward(output.q, pose);
+    EXPECT_LT((pose.tip() - input.p_WT_desired).norm(), 1.01e-9);
+    const Eigen::VectorXd step = output.q - input.q;
+    const Eigen::MatrixXd rows = Eigen::MatrixXd(J).transpose();
+    const Eigen::VectorXd y = rows.colPivHouseholderQr().solve(step);
+    EXPECT_LT((step - rows * y).norm(), 1e-12 + 1e-9 * step.norm());
+  }
+  return static_cast<double>(method.counters().kinematics) / kTicks;
+}
+
+TEST(BqsaPlanar, FreeTicksGoAlongTheRowsOfTheJacobianInTwoPasses) {
+  EXPECT_LT(passes_of_free_ticks(1e-4), 2.05) << "one to find the step, one for the answer";
+  EXPECT_LT(passes_of_free_ticks(2e-3), 3.05);
+}
+
+TEST(BqsaPlanar, FreeTicksThatTurnLinksFarArriveAllTheSame) {
+  EXPECT_GT(passes_of_free_ticks(0.03), 3.0) << "corrections with the Jacobian of the start";
 }
 
 TEST(BqsaPlanar, KeepsLinkRadiusAndMargin) {
