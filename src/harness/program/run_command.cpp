@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "harness/campaign/campaign_file.hpp"
+#include "harness/campaign/plan_file.hpp"
 #include "harness/methods.hpp"
 #include "harness/program/commands.hpp"
 #include "harness/program/external_methods.hpp"
@@ -112,6 +113,11 @@ Status run_command(const std::vector<MethodEntry>& methods, const RunOptions& op
   }
   refuse_options(options.for_campaigns, "a campaign, and there is none among the scenarios");
   if (options.directory.empty()) throw InputError("--out: expected a directory, got nothing");
+  if (has_plan(options.directory)) {
+    throw InputError(
+        fmt::format("--out: {}: expected a directory of single runs, got that of a campaign",
+                    options.directory.string()));
+  }
   const std::vector<MethodSpec> specs = chosen_methods(methods, options.methods);
   Circumstances circumstances = circumstances_of(options);
   circumstances.out_of_tree = names_out_of_tree(methods);

@@ -148,6 +148,9 @@ TEST_F(CampaignTest, DirectoriesOfDifferentCampaignsAreNotMixed) {
   const ProgramResult refused = run("out");
   EXPECT_EQ(refused.status, 2);
   EXPECT_THAT(refused.err, HasSubstr("campaign small"));
+  const ProgramResult single = run_bqsa_bench({"run", kPlanar, "-m", "none", "--out", path("out")});
+  EXPECT_EQ(single.status, 2);
+  EXPECT_THAT(single.err, HasSubstr("got that of a campaign"));
   run("other");
   const ProgramResult merged =
       run_bqsa_bench({"merge", path("out"), path("other"), "--out", path("both")});
