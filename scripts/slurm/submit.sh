@@ -25,13 +25,19 @@ done
 (($# > 0)) && shift
 
 program=${BQSA_BENCH:-$(command -v bqsa-bench || echo "$here/../../build/release/src/harness/program/bqsa-bench")}
-externals=()  # of the options only these matter to the plan
+for_plan=()  # the run options that the plan depends on
+force=false
 for ((i = 1; i <= $#; ++i)); do
-  [[ ${!i} == --external ]] && j=$((i + 1)) && externals+=(--external "${!j}")
+  case ${!i} in
+    --external) j=$((i + 1)) && for_plan+=(--external "${!j}") ;;
+    --external=* | --allow-outside) for_plan+=("${!i}") ;;
+    --force) force=true ;;
+  esac
 done
 
-"$program" plan "$campaign" --out "$directory" "${externals[@]}"
+"$program" plan "$campaign" --out "$directory" "${for_plan[@]}"
 missing=$("$program" missing "$shards" "$directory")
+$force && missing=1-$shards
 common=(--parsable --chdir="$PWD" --export=ALL)
 if [[ -n $missing ]]; then
   array=$(sbatch "${common[@]}" --job-name=bqsa-shard --array="$missing" --requeue --open-mode=append \

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <fstream>
 #include <system_error>
 
@@ -49,7 +50,8 @@ std::string read_text_file(const fs::path& file, std::size_t max_bytes) {
 StagedTextFile::StagedTextFile(const fs::path& file, std::string_view content,
                                Durability durability)
     : file_(file), temporary_(file) {
-  temporary_ += fmt::format(".{}.tmp", getpid());
+  temporary_ += fmt::format(".{}.{}.tmp", getpid(),
+                            std::chrono::system_clock::now().time_since_epoch().count());
   std::error_code unknown;
   if (fs::is_directory(file, unknown))
     refuse(file, std::make_error_code(std::errc::is_a_directory));
@@ -98,7 +100,11 @@ bool write_new_text_file(const fs::path& file, std::string_view content) {
 
 void sync_file(const fs::path& file) {
   const Descriptor opened(open(file.c_str(), O_RDONLY | O_CLOEXEC));
-  fsync(opened.number());
+  if (opened.number() >= 0 && fsync(opened.number()) == 0) return;
+  const int error = errno;
+  std::error_code unknown;
+  if (fs::is_directory(file, unknown) && error == EINVAL) return;  // not every file system can
+  refuse(file, std::error_code(error, std::generic_category()));
 }
 
 std::string excerpt(std::string_view text) {

@@ -33,6 +33,8 @@ class StagedTextFile {
   /// @throws InputError naming the file if it cannot take its place
   void commit();
 
+  const std::filesystem::path& place() const { return file_; }
+
  private:
   std::filesystem::path file_;
   std::filesystem::path temporary_;
@@ -48,8 +50,8 @@ void write_text_file(const std::filesystem::path& file, std::string_view content
 /// @throws InputError naming the file if it has other bytes or cannot be written
 bool write_new_text_file(const std::filesystem::path& file, std::string_view content);
 
-/// Has the machine write what it may still hold back: a file, or what a directory lists. Not every file
-/// system can.
+/// Has the machine write what it may still hold back: a file, or what a directory lists.
+/// @throws InputError naming the file if that fails; for a directory not where the file system cannot do it
 void sync_file(const std::filesystem::path& file);
 
 /// What a message shows of text found in a file: at most 60 bytes, anything but printable ASCII

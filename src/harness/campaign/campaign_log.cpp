@@ -41,11 +41,15 @@ void read_record(RecordLine& line) {
 fs::path taken_up(const fs::path& directory, const Shard& shard) {
   if (shard.is_whole()) return kRunsFile;
   std::error_code error;
-  const fs::path partial = partial_file(shard);
-  if (!fs::exists(directory / partial, error) && fs::exists(directory / complete_file(shard))) {
-    fs::rename(directory / complete_file(shard), directory / partial);
+  const fs::path partial = directory / partial_file(shard);
+  const fs::path complete = directory / complete_file(shard);
+  if (!fs::exists(complete, error)) return partial_file(shard);
+  if (fs::exists(partial, error)) {
+    throw InputError(fmt::format("expected one of {} and {}, got both; merge puts them together",
+                                 complete.string(), partial.string()));
   }
-  return partial;
+  fs::rename(complete, partial);
+  return partial_file(shard);
 }
 
 std::vector<FileLock> locked(const fs::path& directory, const Shard& shard) {
@@ -61,12 +65,31 @@ std::vector<FileLock> locked(const fs::path& directory, const Shard& shard) {
   return locks;
 }
 
-/// Trajectories that were being written when their process was killed. Nobody else must be at work.
-void remove_left_over(const fs::path& directory) {
-  std::error_code none;
-  for (const auto& entry : fs::recursive_directory_iterator(directory / "trajectories", none)) {
-    if (entry.path().extension() == ".tmp") fs::remove(entry.path(), none);
+/// Drops a last line that was cut short. What was being written when its process was killed is no result;
+/// a whole record that only lacks its line break stays.
+void drop_cut_line(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::uint64_t begin = 0;
+  std::uint64_t end = 0;
+  RecordLine last;
+  for (std::string text; std::getline(in, text); last.text = std::move(text)) {
+    begin = end;
+    end += text.size() + 1;
   }
+  std::error_code error;
+  if (last.text.empty() || end <= fs::file_size(file, error)) return;
+  try {
+    read_record(last);
+  } catch (const InputError&) {
+    fs::resize_file(file, begin, error);
+  }
+}
+
+/// The file to which records are added, ready for it.
+fs::path opened(const fs::path& directory, const Shard& shard) {
+  const fs::path file = taken_up(directory, shard);
+  drop_cut_line(directory / file);
+  return file;
 }
 
 }  // namespace
@@ -120,8 +143,22 @@ std::vector<BadLine> for_each_record(const fs::path& directory,
         bad.push_back({file, number, error.what()});
       }
     }
+    if (!in.is_open() || in.bad()) {
+      throw InputError(
+          fmt::format("{}: cannot read; a shard that has just ended? Try again", file.string()));
+    }
   }
   return bad;
+}
+
+void remove_left_over(const fs::path& directory) {
+  std::error_code none;
+  for (const auto& entry : fs::recursive_directory_iterator(directory / "trajectories", none)) {
+    const std::string name = entry.path().filename().string();
+    if (name.ends_with(".tmp") && name.find(".csv.") != std::string::npos) {
+      fs::remove(entry.path(), none);
+    }
+  }
 }
 
 FileLock::FileLock(const fs::path& file, Kind kind) {
@@ -142,7 +179,7 @@ FileLock::FileLock(const fs::path& file, Kind kind) {
   }
   const int holder = FileLock::holder(file);
   throw InputError(fmt::format("{}: expected to be the only one here, but {} is at work",
-                               file.parent_path().string(),
+                               file.string(),
                                holder > 0 ? fmt::format("process {}", holder) : "another process"));
 }
 
@@ -159,9 +196,14 @@ CampaignLog::CampaignLog(const fs::path& directory, const Shard& shard)
     : directory_(directory),
       shard_(shard),
       locks_(locked(directory, shard)),
-      store_(directory, taken_up(directory, shard), Durability::kMachine) {
-  bad_lines_ =
-      for_each_record(directory, [&](const RecordLine& record) { keys_.insert(record.key); });
+      store_(directory, opened(directory, shard), Durability::kMachine) {
+  const fs::path ours = directory / (shard.is_whole() ? fs::path(kRunsFile) : partial_file(shard));
+  bad_lines_ = for_each_record(directory, [&](const RecordLine& record) {
+    Recorded& run = runs_[record.key];
+    run.failed = record.applicable && !record.success;
+    // `runs.jsonl` is read before all shards, the records of another process may be anywhere.
+    run.elsewhere = run.elsewhere || (record.file != ours && record.file != runs_file(directory));
+  });
   if (shard.is_whole()) remove_left_over(directory);
 }
 

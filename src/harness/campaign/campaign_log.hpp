@@ -8,7 +8,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
-#include <unordered_set>
+#include <unordered_map>
 #include <vector>
 
 #include "harness/pipe.hpp"
@@ -67,8 +67,12 @@ struct RecordLine {
 /// Goes through all records of a directory, in the order of record_files(), of which lines may be cut short.
 /// @param visit  may throw InputError, too, for a line that is no record
 /// @return the lines that are not records
+/// @throws InputError for a file that cannot be read: then it is not known what is recorded
 std::vector<BadLine> for_each_record(const std::filesystem::path& directory,
                                      const std::function<void(const RecordLine&)>& visit);
+
+/// Removes trajectories that were being written when their process was killed. Nobody else must be at work.
+void remove_left_over(const std::filesystem::path& directory);
 
 /// A lock of the kernel's on a file, held by this process and gone with it, whatever ends it.
 class FileLock {
@@ -94,7 +98,13 @@ class CampaignLog {
   CampaignLog(const std::filesystem::path& directory, const Shard& shard);
 
   /// Whether the run of this key is recorded, in whichever file.
-  bool has(const std::string& key) const { return keys_.contains(key); }
+  bool has(const std::string& key) const { return runs_.contains(key); }
+
+  /// Whether it is recorded and was not judged a success though it applies.
+  bool has_failed(const std::string& key) const { return has(key) && runs_.at(key).failed; }
+
+  /// Whether a file has it that is read after ours, so that a new record of ours would not count.
+  bool has_elsewhere(const std::string& key) const { return has(key) && runs_.at(key).elsewhere; }
 
   const std::vector<BadLine>& bad_lines() const { return bad_lines_; }
 
@@ -110,7 +120,11 @@ class CampaignLog {
   Shard shard_;
   std::vector<FileLock> locks_;
   ResultStore store_;
-  std::unordered_set<std::string> keys_;
+  struct Recorded {
+    bool failed = false;
+    bool elsewhere = false;
+  };
+  std::unordered_map<std::string, Recorded> runs_;  ///< by key
   std::vector<BadLine> bad_lines_;
 };
 

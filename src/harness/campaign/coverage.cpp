@@ -10,7 +10,6 @@
 #include <system_error>
 #include <unordered_map>
 
-#include "harness/results/record_value.hpp"
 #include "harness/text_file.hpp"
 
 namespace bqsa::harness {
@@ -62,33 +61,44 @@ class LineReader {
   std::ifstream stream_;
 };
 
-/// Copies the trajectory that a record names, if it has one and it is not there yet.
-void copy_trajectory(const std::string& record, const fs::path& from, const fs::path& to) {
-  const nlohmann::json json = nlohmann::json::parse(record);
-  const RecordValue trajectory = RecordValue(json)["trajectory"];
-  if (trajectory.is_null() || from == to) return;
-  const fs::path name = json["trajectory"].get<std::string>();
-  const bool inside =
-      name.is_relative() &&
-      std::none_of(name.begin(), name.end(), [](const fs::path& p) { return p == ".."; });
-  if (!inside) trajectory.refuse("expected a file in the results directory");
+/// Copies the trajectory that a record names, if it has one. Whatever else a record may name is left alone.
+/// @return why it could not; empty if it could
+std::string copy_trajectory(const std::string& record, const fs::path& from, const fs::path& to) {
+  const nlohmann::json json = nlohmann::json::parse(record, nullptr, false);
+  const auto trajectory = json.find("trajectory");
+  if (trajectory == json.end() || !trajectory->is_string()) return "";
+  const fs::path name = fs::path(trajectory->get<std::string>()).lexically_normal();
   std::error_code error;
-  if (!fs::exists(from / name, error) || fs::exists(to / name, error)) return;
+  if (name.begin() == name.end() || *name.begin() != "trajectories" ||
+      fs::symlink_status(from / name, error).type() != fs::file_type::regular) {
+    return fmt::format("{}: expected a trajectory in {}, found none", excerpt(name.string()),
+                       (from / "trajectories").string());
+  }
   fs::create_directories((to / name).parent_path(), error);
-  StagedTextFile(to / name, read_text_file(from / name, kMostTrajectoryBytes), Durability::kMachine)
-      .commit();
+  try {
+    StagedTextFile(to / name, read_text_file(from / name, kMostTrajectoryBytes),
+                   Durability::kMachine)
+        .commit();
+  } catch (const InputError& refusal) {
+    return refusal.what();
+  }
+  return "";
 }
 
-/// Writes all records, in order, to a file that appears whole or not at all.
+/// Writes records, in order, to a file that appears whole or not at all.
 /// @param records  those that are missing are left out
-void write_records(const std::vector<RecordPlace>& records, const fs::path& out) {
+void write_records(const std::vector<RecordPlace>& records, const fs::path& out,
+                   std::vector<std::string>& complaints) {
   const fs::path temporary = runs_file(out).string() + ".tmp";
   std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
   LineReader read;
   for (const RecordPlace& place : records) {
     if (place.is_missing()) continue;
     const std::string line = read(place);
-    copy_trajectory(line, place.directory, out);
+    if (!fs::equivalent(place.directory, out)) {
+      const std::string complaint = copy_trajectory(line, place.directory, out);
+      if (!complaint.empty()) complaints.push_back(complaint);
+    }
     file << line << '\n';
   }
   file.close();
@@ -104,11 +114,27 @@ void write_records(const std::vector<RecordPlace>& records, const fs::path& out)
   }
 }
 
-/// Shard files all of whose records are in `runs.jsonl` now, too.
-void remove_merged_shards(const fs::path& out) {
+bool has_bad_lines(const fs::path& file, const Coverage& coverage) {
+  return std::any_of(coverage.bad_lines.begin(), coverage.bad_lines.end(),
+                     [&](const BadLine& line) { return line.file == file; });
+}
+
+/// Shard files in `out` all of whose records are in `runs.jsonl` now, too.
+void remove_merged_shards(const Coverage& before, const fs::path& out) {
   std::error_code error;
-  for (const fs::path& file : record_files(out)) {
-    if (file != runs_file(out)) fs::remove(file, error);
+  for (const fs::path& file : before.files) {
+    const bool shard_of_out = file.parent_path().parent_path() == out;
+    if (shard_of_out && !has_bad_lines(file, before)) fs::remove(file, error);
+  }
+}
+
+/// Lines that a merge does not take along may be of use to somebody.
+void keep_damaged_runs(const Coverage& before, const fs::path& out) {
+  std::error_code error;
+  if (has_bad_lines(runs_file(out), before)) {
+    fs::copy_file(runs_file(out), out / "runs.damaged.jsonl", fs::copy_options::overwrite_existing,
+                  error);
+    if (error) throw InputError(fmt::format("{}: cannot be kept", runs_file(out).string()));
   }
 }
 
@@ -144,6 +170,8 @@ Coverage coverage_of(const std::vector<fs::path>& directories) {
       place = {directory, line.file, line.offset, line.applicable && !line.success};
     });
     coverage.bad_lines.insert(coverage.bad_lines.end(), bad.begin(), bad.end());
+    const std::vector<fs::path> files = record_files(directory);
+    coverage.files.insert(coverage.files.end(), files.begin(), files.end());
   }
   return coverage;
 }
@@ -156,24 +184,31 @@ std::vector<int> incomplete_shards(const Coverage& coverage, int shards) {
   return {numbers.begin(), numbers.end()};
 }
 
-Coverage merge(std::vector<fs::path> directories, const fs::path& out) {
+Merged merge(const std::vector<fs::path>& directories, const fs::path& out) {
   std::error_code error;
   fs::create_directories(out, error);
   const FileLock lock(out / kLockFile, FileLock::Kind::kExclusive);
   const auto is_out = [&](const fs::path& d) { return fs::equivalent(d, out, error); };
-  const bool in_place = std::any_of(directories.begin(), directories.end(), is_out);
-  if (!in_place && has_plan(out)) directories.push_back(out);
-  const Coverage before = coverage_of(directories);
+  std::vector<fs::path> sources;  // of several records of a run the last counts
+  if (has_plan(out)) sources.push_back(out);
+  std::copy_if(directories.begin(), directories.end(), std::back_inserter(sources),
+               [&](const fs::path& directory) { return !is_out(directory); });
+  const Coverage before = coverage_of(sources);
   if (!has_plan(out)) {
-    write_text_file(out / kPlanFile,
-                    read_text_file(directories.front() / kPlanFile, kMostPlanBytes));
+    const std::string plan = read_text_file(directories.front() / kPlanFile, kMostPlanBytes);
+    StagedTextFile(out / kPlanFile, plan, Durability::kMachine).commit();
   }
+  Merged merged;
+  for (const BadLine& line : before.bad_lines) merged.complaints.push_back(text_of(line));
   std::vector<RecordPlace> records = before.records;
   std::copy_if(before.stale.begin(), before.stale.end(), std::back_inserter(records),
                [&](const RecordPlace& place) { return is_out(place.directory); });
-  write_records(records, out);
-  remove_merged_shards(out);
-  return coverage_of({out});
+  keep_damaged_runs(before, out);
+  write_records(records, out, merged.complaints);
+  remove_merged_shards(before, out);
+  remove_left_over(out);
+  merged.coverage = coverage_of({out});
+  return merged;
 }
 
 }  // namespace bqsa::harness

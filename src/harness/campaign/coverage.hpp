@@ -30,6 +30,7 @@ struct Coverage {
   std::vector<RecordPlace> stale;  ///< records of no planned run: of another program, scenario, set
                                    ///< of parameters, or of no campaign
   std::vector<BadLine> bad_lines;
+  std::vector<std::filesystem::path> files;  ///< that were read
 
   std::size_t missing() const;
   std::size_t failed() const;
@@ -42,11 +43,18 @@ Coverage coverage_of(const std::vector<std::filesystem::path>& directories);
 /// Numbers of the shards of which runs are missing.
 std::vector<int> incomplete_shards(const Coverage& coverage, int shards);
 
+struct Merged {
+  Coverage coverage;  ///< what is now in `out`
+  std::vector<std::string>
+      complaints;  ///< about lines and trajectories that could not be taken along
+};
+
 /// Writes the records that there are in the order of the plan, `out/runs.jsonl`, with plan and trajectories.
-/// What is in `out` already counts; stale records there are kept, after the others. Once all is safe, shard
-/// files in `out` are removed.
-/// @return what is now in `out`
+/// What is in `out` already counts, but for runs that the directories have, too. Stale records in `out` are kept, after
+/// the others. Once all is on the disk, shard files in `out` are removed, unless they have lines that are not
+/// records; a `runs.jsonl` that has some is kept as `runs.damaged.jsonl`.
 /// @throws InputError as coverage_of(), if a process is at work in `out`, or it cannot be written to
-Coverage merge(std::vector<std::filesystem::path> directories, const std::filesystem::path& out);
+Merged merge(const std::vector<std::filesystem::path>& directories,
+             const std::filesystem::path& out);
 
 }  // namespace bqsa::harness

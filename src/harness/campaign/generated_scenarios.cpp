@@ -1,12 +1,15 @@
 #include "harness/campaign/generated_scenarios.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <map>
 #include <sstream>
 #include <system_error>
 
 #include "harness/generator/generator.hpp"
+#include "harness/pipe.hpp"
 #include "harness/sha256.hpp"
 #include "harness/text_file.hpp"
 
@@ -51,6 +54,12 @@ bool was_made(const fs::path& file, const std::map<std::string, std::string>& ha
                                file.string(), hash->second, found));
 }
 
+/// What was written there outlasts the machine's end before something is made of it.
+void sync_files_of(const fs::path& directory) {
+  const Descriptor opened(open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  syncfs(opened.number());
+}
+
 }  // namespace
 
 std::vector<PlannedScenario> generate_scenarios(const GeneratedScenarios& wanted,
@@ -81,7 +90,10 @@ std::vector<PlannedScenario> generate_scenarios(const GeneratedScenarios& wanted
     }
     made();
   }
-  if (scenarios.size() > hashes.size()) write_text_file(list, list_text(scenarios));
+  if (scenarios.size() > hashes.size()) {
+    sync_files_of(directory);
+    write_text_file(list, list_text(scenarios));
+  }
   return scenarios;
 }
 

@@ -144,13 +144,13 @@ Plan make_plan(const Campaign& campaign, const fs::path& directory, const PlanOp
   Plan plan{.campaign = campaign.name,
             .scenarios = planned_scenarios(campaign, directory, options),
             .methods = campaign.methods,
+            .identities = {},
             .runs = {},
             .settings = campaign.settings,
             .limits = campaign.limits,
             .trajectories = campaign.trajectories};
   const std::string program = program_identity(options.out_of_tree);
-  std::vector<std::string> identities;
-  for (const MethodSpec& method : plan.methods) identities.push_back(method_identity(method));
+  for (const MethodSpec& method : plan.methods) plan.identities.push_back(method_identity(method));
 
   plan.runs.reserve(plan.scenarios.size() * plan.methods.size() *
                     static_cast<std::size_t>(campaign.repetitions));
@@ -160,7 +160,7 @@ Plan make_plan(const Campaign& campaign, const fs::path& directory, const PlanOp
       for (int repetition = 1; repetition <= campaign.repetitions; ++repetition) {
         const std::uint64_t seed = run_seed(campaign.seed, scenario, plan.methods[m], repetition);
         plan.runs.push_back({s, m, repetition, seed,
-                             run_key(scenario, identities[m], repetition, seed, plan.settings,
+                             run_key(scenario, plan.identities[m], repetition, seed, plan.settings,
                                      plan.limits, program)});
       }
     }

@@ -31,8 +31,9 @@ struct Plan {
   std::string campaign;  ///< its name
   std::vector<PlannedScenario> scenarios;
   std::vector<MethodSpec> methods;
-  std::vector<PlannedRun> runs;  ///< by scenario, then method, then repetition
-  RunSettings settings;          ///< of all runs, but for the seed
+  std::vector<std::string> identities;  ///< method_identity() of each
+  std::vector<PlannedRun> runs;         ///< by scenario, then method, then repetition
+  RunSettings settings;                 ///< of all runs, but for the seed
   RunLimits limits;
   KeptTrajectories trajectories = KeptTrajectories::kAll;
 };

@@ -115,7 +115,8 @@ void write_plan(const Plan& plan, const std::string& program, const fs::path& di
         fmt::format("{}: expected a directory that can be made, got one that cannot ({})",
                     directory.string(), error.message()));
   }
-  write_text_file(file, text);
+  StagedTextFile(file, text, Durability::kMachine).commit();
+  sync_file(directory);
 }
 
 ListedPlan read_plan(const fs::path& directory) {

@@ -31,6 +31,13 @@ std::vector<std::size_t> to_be_done(const Plan& plan, const CampaignLog& log,
     ++outcome.planned;
     const bool recorded = log.has(plan.runs[i].key);
     outcome.recorded += recorded;
+    outcome.failed_before += log.has_failed(plan.runs[i].key) && !options.force;
+    if (options.force && log.has_elsewhere(plan.runs[i].key)) {
+      throw InputError(
+          "--force: expected records in runs.jsonl or in this shard only, got shards of which the "
+          "old "
+          "records would count; merge first");
+    }
     if (!recorded || options.force) runs.push_back(i);
   }
   if (options.shuffle) {
@@ -43,6 +50,11 @@ std::vector<std::size_t> to_be_done(const Plan& plan, const CampaignLog& log,
 /// What a worker says of a run: a mark, and the record or what went wrong.
 constexpr char kRecord = 'r';
 constexpr char kError = 'e';
+constexpr char kCannotStore = 's';  ///< nor will the others be able to
+
+struct CannotStore : InputError {
+  using InputError::InputError;
+};
 
 /// Runs and judges, in a process of the pool.
 class RunWorker {
@@ -62,6 +74,8 @@ class RunWorker {
   std::string answer(std::size_t index) {
     try {
       return kRecord + record_of(plan_.runs[index]);
+    } catch (const CannotStore& error) {
+      return kCannotStore + std::string(error.what());
     } catch (const std::exception& error) {
       return kError + std::string(error.what());
     }
@@ -72,12 +86,28 @@ class RunWorker {
     prepare(run.scenario);
     circumstances_.settings.seed = run.seed;
     circumstances_.place = CampaignPlace{plan_.campaign, run.key, run.repetition};
-    const JudgedRun judged =
-        judged_run(*scenario_, *judge_, plan_.methods[run.method], circumstances_, directory_);
+    const MethodSpec& method = plan_.methods[run.method];
+    if (!method.entry.external.empty() && method_identity(method) != plan_.identities[run.method]) {
+      throw InputError(fmt::format("{}: changed since the campaign began", method.entry.external));
+    }
+    const JudgedRun judged = judged_run(*scenario_, *judge_, method, circumstances_, directory_);
     give_up_if_stopped(judged);
-    if (!judged.trajectory_error.empty()) throw InputError(judged.trajectory_error);
-    if (judged.trajectory) judged.trajectory->commit();
+    if (judged.killed) {
+      throw InputError(
+          "its process was killed from outside, as a kernel does that is out of memory");
+    }
+    if (!judged.trajectory_error.empty()) throw CannotStore(judged.trajectory_error);
+    if (judged.trajectory) store(*judged.trajectory);
     return judged.record;
+  }
+
+  static void store(StagedTextFile& trajectory) {
+    try {
+      trajectory.commit();
+      sync_file(trajectory.place().parent_path());
+    } catch (const InputError& error) {
+      throw CannotStore(error.what());
+    }
   }
 
   /// Loads the scenario, unless the last run was of the same.
@@ -147,6 +177,8 @@ CampaignOutcome run_campaign(const Plan& plan, const std::filesystem::path& dire
     const std::string_view answer = result->answer;
     if (!result->died.empty()) {
       lose(*result, "the process that ran and judged it was " + result->died);
+    } else if (answer.front() == kCannotStore) {
+      throw InputError(std::string(answer.substr(1)));
     } else if (answer.front() == kError) {
       lose(*result, std::string(answer.substr(1)));
     } else {

@@ -28,10 +28,11 @@ struct CampaignOptions {
 
 /// What came of it.
 struct CampaignOutcome {
-  std::size_t planned = 0;   ///< runs of the shard
-  std::size_t recorded = 0;  ///< of them, before
-  std::size_t done = 0;      ///< now
-  std::size_t failed = 0;    ///< of those, not judged a success
+  std::size_t planned = 0;        ///< runs of the shard
+  std::size_t recorded = 0;       ///< of them, before
+  std::size_t failed_before = 0;  ///< of those, not judged a success, and not run again
+  std::size_t done = 0;           ///< now
+  std::size_t failed = 0;         ///< of those, not judged a success
   std::size_t lost = 0;  ///< without a record: the process that was at it died, or could not do it
   int signal = 0;        ///< that put an end to it, else 0
 };

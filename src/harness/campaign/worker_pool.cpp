@@ -72,6 +72,18 @@ void pin_to(int processor) {
   sched_setaffinity(0, sizeof set, &set);
 }
 
+/// Nothing if another pool of the same user on this machine has it.
+std::optional<FileLock> claim_to(int processor) {
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() /
+      ("bqsa-bench-" + std::to_string(geteuid()) + "-processor-" + std::to_string(processor));
+  try {
+    return FileLock(file, FileLock::Kind::kExclusive);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 std::vector<int> usable_processors() {
@@ -93,12 +105,15 @@ struct WorkerPool::Worker {
   std::size_t item = 0;
 };
 
-WorkerPool::WorkerPool(int processes, Work work)
-    : work_(std::move(work)), processors_(usable_processors()) {
-  pinned_ = static_cast<std::size_t>(processes) <= processors_.size();
-  for (int i = 0; i < processes; ++i) {
-    workers_.push_back(std::make_unique<Worker>());
-    if (pinned_) workers_.back()->processor = processors_[static_cast<std::size_t>(i)];
+WorkerPool::WorkerPool(int processes, Work work) : work_(std::move(work)) {
+  for (int i = 0; i < processes; ++i) workers_.push_back(std::make_unique<Worker>());
+  auto worker = workers_.begin();
+  for (const int processor : usable_processors()) {
+    if (worker == workers_.end()) break;
+    std::optional<FileLock> claim = claim_to(processor);
+    if (!claim) continue;
+    claims_.push_back(*std::move(claim));
+    (*worker++)->processor = processor;
   }
   for (const auto& worker : workers_) hire(*worker);
 }

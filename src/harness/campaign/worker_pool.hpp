@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "harness/campaign/campaign_log.hpp"
+
 namespace bqsa::harness {
 
 /// What became of a piece of work.
@@ -20,9 +22,9 @@ struct WorkResult {
   std::string died;  ///< how the process ended that should have answered; empty if it did answer
 };
 
-/// Forked processes that each do one piece of work at a time. With at most as many as this process may
-/// use processors, each is pinned to one of its own. They end with the pool, and die with this process
-/// whatever it dies of; one that dies is replaced.
+/// Forked processes that each do one piece of work at a time, each pinned to a processor of its own as far as
+/// there are any that this process may use and no other pool on the machine has. They end with the pool,
+/// and die with this process whatever it dies of; one that dies is replaced.
 ///
 /// Only the calling thread survives in them: the calling process must have one thread.
 class WorkerPool {
@@ -47,8 +49,6 @@ class WorkerPool {
   /// @param wake  a descriptor
   std::optional<WorkResult> wait(int wake);
 
-  bool is_pinned() const { return pinned_; }
-
  private:
   struct Worker;
 
@@ -57,8 +57,7 @@ class WorkerPool {
   WorkResult take(Worker& worker);
 
   Work work_;
-  std::vector<int> processors_;
-  bool pinned_ = false;
+  std::vector<FileLock> claims_;  ///< to processors
   std::vector<std::unique_ptr<Worker>> workers_;
 };
 

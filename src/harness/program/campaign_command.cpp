@@ -124,7 +124,7 @@ Status run_campaign_command(const std::vector<MethodEntry>& methods, const RunOp
     console.error(fmt::format("{} runs are lost; the same command tries them again", outcome.lost));
     return kBadInput;
   }
-  return options.strict && outcome.failed > 0 ? kRunFailed : kOk;
+  return options.strict && outcome.failed + outcome.failed_before > 0 ? kRunFailed : kOk;
 }
 
 }  // namespace bqsa::harness

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ostream>
 
 #include "harness/campaign/coverage.hpp"
@@ -80,13 +81,15 @@ Status status_command(const fs::path& directory, const Console& console) {
 
 Status missing_command(int shards, const fs::path& directory, const Console& console) {
   const Coverage coverage = coverage_of({directory});
+  report_bad_lines(coverage, console);
   console.out << fmt::format("{}\n", fmt::join(incomplete_shards(coverage, shards), ","));
   return kOk;
 }
 
 Status merge_command(const std::vector<fs::path>& directories, const fs::path& out,
                      const Console& console) {
-  const Coverage merged = merge(directories, out);
+  const auto [merged, complaints] = merge(directories, out);
+  for (const std::string& complaint : complaints) console.error(complaint);
   const std::size_t missing = merged.missing();
   console.out << fmt::format("{}: {} of {} runs, {} failed\n", out.string(),
                              merged.records.size() - missing, merged.records.size(),

@@ -189,9 +189,8 @@ void declare_export(CLI::App& app, CommandLine& line) {
   command->add_option("--csv", line.exported.csv, "A row a run, all figures");
   command->add_option("--google-benchmark", line.exported.google_benchmark,
                       "Times of successes as Google Benchmark's JSON");
-  on_choice(*command, line, [&line](const Console& console) {
-    return export_command(line.exported, console);
-  });
+  on_choice(*command, line,
+            [&line](const Console& console) { return export_command(line.exported, console); });
 }
 
 void declare_step(CLI::App& app, CommandLine& line) {

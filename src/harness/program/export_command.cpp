@@ -30,7 +30,9 @@ void check_targets(const ExportOptions& options) {
     if (targets[i].empty()) continue;
     any = true;
     std::error_code missing;
-    for (const fs::path& file : record_files(options.directory)) {
+    std::vector<fs::path> ours = record_files(options.directory);
+    ours.push_back(options.directory / kPlanFile);
+    for (const fs::path& file : ours) {
       if (fs::equivalent(targets[i], file, missing)) {
         throw InputError(
             fmt::format("{}: expected a file to export to, got the records", file.string()));

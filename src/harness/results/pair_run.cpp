@@ -1,7 +1,10 @@
 #include "harness/results/pair_run.hpp"
 
 #include <algorithm>
+#include <csignal>
 #include <vector>
+
+#include "harness/process_state.hpp"
 
 namespace bqsa::harness {
 namespace {
@@ -70,6 +73,7 @@ JudgedRun judged_run(const Scenario& scenario, const Judge& judge, const MethodS
     run.trajectory_error = error.what();
   }
   run.claim = outcome.claim;
+  run.killed = outcome.claim == Claim::kCrashed && outcome.message.starts_with(end_text(SIGKILL));
   run.record = run_record(scenario, method, outcome, diagnosis_of(problem, outcome), judgement,
                           machine, circumstances, run.trajectory ? file : "");
   return run;

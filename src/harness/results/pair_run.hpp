@@ -16,6 +16,7 @@ namespace bqsa::harness {
 struct JudgedRun {
   std::string record;
   Claim claim = Claim::kNothing;               ///< of a run that took place
+  bool killed = false;                         ///< by a signal 9 that the harness did not send
   std::unique_ptr<StagedTextFile> trajectory;  ///< not yet in its place; null if not to be stored
   std::string trajectory_error;                ///< why it could not be written; else empty
 };

@@ -232,7 +232,7 @@ std::string campaign_variant_name(const MethodSpec& method, const Disturbance& d
 }
 
 std::string run_name(const MethodSpec& method, const Circumstances& circumstances) {
-  constexpr std::size_t kKeyDigits = 8;
+  constexpr std::size_t kKeyDigits = 16;
   const std::string name = variant_name(method, circumstances);
   if (circumstances.place) {
     return fmt::format("{}+{}", name, circumstances.place->key.substr(0, kKeyDigits));

@@ -48,7 +48,7 @@ std::string variant_name(const MethodSpec& method, const Circumstances& circumst
 std::string campaign_variant_name(const MethodSpec& method, const Disturbance& disturbance);
 
 /// Name of the file of a run's trajectory: variant_name(), and the seed of a planning method where it
-/// is not the default; in a campaign variant_name() and the first 8 digits of the run's key.
+/// is not the default; in a campaign variant_name() and the first 16 digits of the run's key.
 std::string run_name(const MethodSpec& method, const Circumstances& circumstances);
 
 /// A run that took place. Without a line break at the end.

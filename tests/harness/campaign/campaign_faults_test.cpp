@@ -97,6 +97,7 @@ TEST_F(CampaignTest, AFullDiskStopsItAndKeepsWhatThereIs) {
   const ProgramResult full = run("disk/out");
   EXPECT_EQ(full.status, 2);
   EXPECT_THAT(full.err, HasSubstr("No space left on device"));
+  EXPECT_THAT(full.err, ::testing::Not(HasSubstr("lost"))) << "it goes on to run in vain";
   const Findings kept = findings_of(runs_of("disk/out"));
   EXPECT_GT(kept.size(), 0U);
   EXPECT_LT(kept.size(), kRuns);
@@ -175,12 +176,109 @@ TEST_F(CampaignTest, DamagedAndForeignLinesAreToldAndLeftAlone) {
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.err, HasSubstr("runs.jsonl:1: "));
   EXPECT_THAT(result.err, HasSubstr("runs.jsonl:6: not a whole line of JSON"));
-  EXPECT_THAT(result.err, HasSubstr("runs.jsonl:8: not a whole line of JSON"));
+  EXPECT_THAT(result.err, ::testing::Not(HasSubstr("runs.jsonl:8"))) << "is dropped";
   EXPECT_THAT(result.err, HasSubstr("3 recorded, 9 to do"));
   EXPECT_EQ(content_of(path("out/notes.txt")), "mine");
 
-  EXPECT_EQ(run_bqsa_bench({"merge", path("out"), "--out", path("merged")}).status, 0);
-  EXPECT_EQ(findings_of(runs_of("merged")), alone);
+  const ProgramResult merged = run_bqsa_bench({"merge", path("out"), "--out", path("out")});
+  EXPECT_EQ(merged.status, 0);
+  EXPECT_THAT(merged.err, HasSubstr("runs.jsonl:6: not a whole line of JSON"));
+  EXPECT_EQ(findings_of(runs_of("out")), alone);
+  EXPECT_THAT(content_of(path("out/runs.damaged.jsonl")), HasSubstr("not JSON at all"));
+}
+
+TEST_F(CampaignTest, ARunThatIsKilledFromOutsideIsNoCrashOfItsMethod) {
+  const std::string hangs = "hangs=/usr/bin/python3 " BQSA_SOURCE_DIR
+                            "/tests/harness/external/faulty_method.py hangs prepare";
+  write_campaign("[bqsa, hangs]", "limits: {time: 60}\n");
+  RunningProgram program(words("out", {"--jobs", "1", "--external", hangs}));
+  const auto run_process = [&]() -> pid_t {
+    for (const pid_t worker : children_of(program.process())) {
+      for (const pid_t of_run : children_of(worker)) {
+        if (!children_of(of_run).empty()) return of_run;  // the external method
+      }
+    }
+    return 0;
+  };
+  pid_t process = 0;
+  while (program.runs() && (process = run_process()) == 0) {
+  }
+  ASSERT_GT(process, 0);
+  kill(process, SIGKILL);
+  while (program.runs() && process == run_process()) {
+  }
+  program.end_by(SIGKILL);
+  for (const std::string& line : lines_of(runs_of("out"))) {
+    EXPECT_EQ(nlohmann::json::parse(line)["method"]["name"], "bqsa");
+  }
+}
+
+TEST_F(CampaignTest, AForcedRunThatWouldNotCountIsRefused) {
+  run("out", {"--shard", "1/2"});
+  const ProgramResult refused = run("out", {"--force"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("merge first"));
+  EXPECT_EQ(run("out", {"--shard", "1/2", "--force"}).status, 0);
+  EXPECT_EQ(run("out", {"--shard", "2/2"}).status, 0);
+  EXPECT_EQ(run_bqsa_bench({"merge", path("out"), "--out", path("out")}).status, 0);
+  EXPECT_EQ(run("out", {"--force"}).status, 0);
+}
+
+TEST_F(CampaignTest, TwoFilesOfOneShardAreNotWrittenOver) {
+  run("out", {"--shard", "1/2"});
+  const std::string complete = path("out/shards/1-of-2.jsonl");
+  const std::string before = content_of(complete);
+  write_file(path("out/shards/1-of-2.part.jsonl"), lines_of(complete)[0] + "\n");
+  const ProgramResult refused = run("out", {"--shard", "1/2"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("got both"));
+  EXPECT_EQ(content_of(complete), before);
+}
+
+TEST_F(CampaignTest, ShardsOnOneMachineHaveProcessorsOfTheirOwn) {
+  RunningProgram first(words("out", {"--shard", "1/2", "--jobs", "1"}));
+  RunningProgram second(words("out", {"--shard", "2/2", "--jobs", "1"}));
+  const auto processors_of = [](RunningProgram& program) {
+    std::vector<pid_t> workers;
+    while (program.runs() && (workers = children_of(program.process())).empty()) {
+    }
+    std::string allowed = "none";
+    for (int i = 0; i < 100 && !workers.empty() && program.runs(); ++i) {
+      std::istringstream status(content_of("/proc/" + std::to_string(workers[0]) + "/status"));
+      for (std::string line; std::getline(status, line);) {
+        if (line.starts_with("Cpus_allowed_list:")) allowed = line.substr(19);
+      }
+      if (allowed.find_first_of("-,") == std::string::npos) break;  // it is pinned
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return allowed;
+  };
+  if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "one processor only";
+  EXPECT_NE(processors_of(first), processors_of(second));
+}
+
+TEST_F(CampaignTest, MergeTakesNothingButTrajectoriesAlong) {
+  run("one");
+  std::string text;
+  for (const std::string& line : lines_of(runs_of("one"))) {
+    auto record = nlohmann::ordered_json::parse(line);
+    const std::size_t n = text.size() % 4;
+    record["trajectory"] = n == 0   ? "../../etc/passwd"
+                           : n == 1 ? "plan.jsonl"
+                           : n == 2 ? "trajectories/../plan.jsonl"
+                                    : "/etc/passwd";
+    text += record.dump() + "\n";
+  }
+  write_file(runs_of("one"), text);
+  const ProgramResult merged = run_bqsa_bench({"merge", path("one"), "--out", path("merged")});
+  EXPECT_EQ(merged.status, 0);
+  EXPECT_THAT(merged.err, HasSubstr("expected a trajectory in"));
+  EXPECT_EQ(findings_of(runs_of("merged")).size(), kRuns);
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(path("merged"))) {
+    names.insert(entry.path().filename());
+  }
+  EXPECT_EQ(names, (std::set<std::string>{"lock", "plan.jsonl", "runs.jsonl"}));
 }
 
 }  // namespace
