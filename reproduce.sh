@@ -15,9 +15,9 @@ tools/quiet.sh $logs/configure.log cmake --preset release \
 tools/quiet.sh $logs/build.log cmake --build --preset release --target bqsa-bench count_allocations
 
 rm -rf "$out"
-tools/random_problems.sh quick "$out/random_problems"
-
 program=build/release/src/harness/program/bqsa-bench
+"$program" run campaigns/quick.yaml --out "$out/random_problems" --jobs 1  # one at a time, for its times
+
 echo
 # All methods as they are, and the test-point method once more with the gains and the density of points
 # that it needs to pass the PUMA 560 scenes.

@@ -197,5 +197,15 @@ TEST(CampaignFile, TheExampleCanBeLoaded) {
   EXPECT_EQ(campaign.methods.size(), 4u);
 }
 
+TEST(CampaignFile, TheReferenceCampaignsCanBeLoaded) {
+  int campaigns = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(BQSA_SOURCE_DIR "/campaigns")) {
+    const Campaign campaign = load_campaign(entry.path(), methods());
+    EXPECT_EQ(campaign.name, entry.path().stem());
+    ++campaigns;
+  }
+  EXPECT_EQ(campaigns, 3);
+}
+
 }  // namespace
 }  // namespace bqsa::harness
