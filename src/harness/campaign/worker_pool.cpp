@@ -107,13 +107,12 @@ struct WorkerPool::Worker {
 
 WorkerPool::WorkerPool(int processes, Work work) : work_(std::move(work)) {
   for (int i = 0; i < processes; ++i) workers_.push_back(std::make_unique<Worker>());
-  auto worker = workers_.begin();
   for (const int processor : usable_processors()) {
-    if (worker == workers_.end()) break;
+    if (claims_.size() == workers_.size()) break;
     std::optional<FileLock> claim = claim_to(processor);
     if (!claim) continue;
+    workers_[claims_.size()]->processor = processor;
     claims_.push_back(*std::move(claim));
-    (*worker++)->processor = processor;
   }
   for (const auto& worker : workers_) hire(*worker);
 }
