@@ -28,7 +28,7 @@ std::string name_of(const Shard& shard) {
 /// @throws InputError if it is no record
 void read_record(RecordLine& line) {
   const nlohmann::json record = nlohmann::json::parse(line.text, nullptr, false);
-  if (record.is_discarded()) throw InputError("not a whole line of JSON");
+  if (record.is_discarded()) throw InputError("cut short or damaged; left out");
   const RecordValue value(record);
   if (value["schema"].text() != "bqsa-run/1") value["schema"].refuse("expected bqsa-run/1");
   const bool in_campaign = value.has("campaign") && !value["campaign"].is_null();

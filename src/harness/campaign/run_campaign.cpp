@@ -90,7 +90,7 @@ class RunWorker {
     if (!method.entry.external.empty() && method_identity(method) != plan_.identities[run.method]) {
       throw InputError(fmt::format("{}: changed since the campaign began", method.entry.external));
     }
-    const JudgedRun judged = judged_run(*scenario_, *judge_, method, circumstances_, directory_);
+    const JudgedPair judged = judged_pair(*scenario_, *judge_, method, circumstances_, directory_);
     give_up_if_stopped(judged);
     if (judged.killed) {
       throw InputError(
@@ -127,7 +127,7 @@ class RunWorker {
 
   /// What ends a campaign may have ended the method first, as when a scheduler sends a signal to all
   /// processes of a job: that is no crash of the method.
-  void give_up_if_stopped(const JudgedRun& judged) {
+  void give_up_if_stopped(const JudgedPair& judged) {
     constexpr std::chrono::milliseconds kUntilAllHaveTheSignal{50};
     if (judged.claim == Claim::kCrashed) std::this_thread::sleep_for(kUntilAllHaveTheSignal);
     if (stop_.pending() != 0) _exit(EXIT_FAILURE);

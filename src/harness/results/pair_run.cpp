@@ -50,12 +50,12 @@ RunOutcome run_outcome(const Problem& problem, const MethodSpec& method,
 
 }  // namespace
 
-JudgedRun judged_run(const Scenario& scenario, const Judge& judge, const MethodSpec& method,
-                     const Circumstances& circumstances, const std::filesystem::path& directory) {
+JudgedPair judged_pair(const Scenario& scenario, const Judge& judge, const MethodSpec& method,
+                       const Circumstances& circumstances, const std::filesystem::path& directory) {
   const Problem& problem = scenario.problem;
   const MachineState machine = machine_state();
   const std::string why_not = why_not_run(problem, method, circumstances.settings.disturbance);
-  JudgedRun run;
+  JudgedPair run;
   if (!why_not.empty()) {
     run.record = not_applicable_record(scenario, method, why_not, machine, circumstances);
     return run;
@@ -81,7 +81,7 @@ JudgedRun judged_run(const Scenario& scenario, const Judge& judge, const MethodS
 
 StoredRun run_pair(const Scenario& scenario, const Judge& judge, const MethodSpec& method,
                    const Circumstances& circumstances, ResultStore& store) {
-  const JudgedRun run = judged_run(scenario, judge, method, circumstances, store.directory());
+  const JudgedPair run = judged_pair(scenario, judge, method, circumstances, store.directory());
   store.append(run.record);
   if (run.trajectory) run.trajectory->commit();
   return {run.record, run.trajectory_error};

@@ -13,7 +13,7 @@
 namespace bqsa::harness {
 
 /// A run that took place, or could not, and what the judge says of it.
-struct JudgedRun {
+struct JudgedPair {
   std::string record;
   Claim claim = Claim::kNothing;               ///< of a run that took place
   bool killed = false;                         ///< by a signal 9 that the harness did not send
@@ -25,8 +25,8 @@ struct JudgedRun {
 /// that leaves an older one in its place until it is committed.
 /// @param judge      of the scenario's problem
 /// @param directory  of the results
-JudgedRun judged_run(const Scenario& scenario, const Judge& judge, const MethodSpec& method,
-                     const Circumstances& circumstances, const std::filesystem::path& directory);
+JudgedPair judged_pair(const Scenario& scenario, const Judge& judge, const MethodSpec& method,
+                       const Circumstances& circumstances, const std::filesystem::path& directory);
 
 struct StoredRun {
   std::string record;            ///< as stored

@@ -69,9 +69,9 @@ TEST(BqsaPlanar, WithoutObstaclesItTracksAndNeverClamps) {
   EXPECT_LT(run.tip_error, 1e-8);
 }
 
-/// Free ticks from random postures to a tip that is `way` away [m]: the joint step is Jᵀ y with J of the start, the
-/// tip arrives, and it takes so many passes of kinematics in the mean.
-double passes_of_free_ticks(double way) {
+/// Free ticks from random postures to a tip that is `way` away [m]: the tip arrives, and where links turn little the
+/// joint step is Jᵀ y with J of the start. It takes so many passes of kinematics in the mean.
+double passes_of_free_ticks(double way, bool slight) {
   Problem problem = planar_7r();
   problem.obstacles.clear();
   const SerialChain& chain = problem.chain;
@@ -100,18 +100,19 @@ double passes_of_free_ticks(double way) {
     const Eigen::VectorXd step = output.q - input.q;
     const Eigen::MatrixXd rows = Eigen::MatrixXd(J).transpose();
     const Eigen::VectorXd y = rows.colPivHouseholderQr().solve(step);
-    EXPECT_LT((step - rows * y).norm(), 1e-12 + 1e-9 * step.norm());
+    if (slight) EXPECT_LT((step - rows * y).norm(), 1e-12 + 1e-9 * step.norm());
   }
   return static_cast<double>(method.counters().kinematics) / kTicks;
 }
 
-TEST(BqsaPlanar, FreeTicksGoAlongTheRowsOfTheJacobianInTwoPasses) {
-  EXPECT_LT(passes_of_free_ticks(1e-4), 2.05) << "one to find the step, one for the answer";
-  EXPECT_LT(passes_of_free_ticks(2e-3), 3.05);
+TEST(BqsaPlanar, FreeTicksGoAlongTheRowsOfTheJacobianInFewPasses) {
+  EXPECT_LT(passes_of_free_ticks(1e-4, true), 3.05)
+      << "the start, one to find the step, the answer";
+  EXPECT_LT(passes_of_free_ticks(2e-3, true), 4.05) << "one more to find it";
 }
 
 TEST(BqsaPlanar, FreeTicksThatTurnLinksFarArriveAllTheSame) {
-  EXPECT_GT(passes_of_free_ticks(0.03), 3.0) << "corrections with the Jacobian of the start";
+  EXPECT_GT(passes_of_free_ticks(0.03, false), 4.05) << "as methods for all arms do it";
 }
 
 TEST(BqsaPlanar, KeepsLinkRadiusAndMargin) {

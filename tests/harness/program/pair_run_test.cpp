@@ -360,7 +360,7 @@ TEST_F(PairRun, OfACampaignRepetitionsStandApartAndSeedsAreNotNamed) {
   };
   const Json first = record_of(1, 'a');
   EXPECT_EQ(first["method"]["variant"], "lying+noise=0.001");
-  EXPECT_EQ(first["trajectory"], "trajectories/planar_7r/lying+noise=0.001+aaaaaaaa.csv");
+  EXPECT_EQ(first["trajectory"], "trajectories/planar_7r/lying+noise=0.001+aaaaaaaaaaaaaaaa.csv");
   EXPECT_EQ(first["campaign"]["name"], "small");
   EXPECT_EQ(first["campaign"]["key"], std::string(32, 'a'));
   EXPECT_EQ(first["campaign"]["repetition"], 1);
@@ -384,7 +384,7 @@ TEST_F(PairRun, APlannerOfACampaignIsNamedByItsKeyNotItsSeed) {
   MethodSpec spec = planned("planner", {});
   Circumstances circumstances = in_campaign(3, 'd');
   circumstances.settings.disturbance = {};
-  EXPECT_EQ(run_name(spec, circumstances), "planner+dddddddd");
+  EXPECT_EQ(run_name(spec, circumstances), "planner+dddddddddddddddd");
   circumstances.place.reset();
   EXPECT_EQ(run_name(spec, circumstances), "planner+seed=103");
 }
