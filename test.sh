@@ -45,7 +45,7 @@ if $full; then
     baselines_test baselines_fcl_test baselines_ompl_test judge_test scenario_test runner_test \
     results_test campaign_test program_test canaries_test conformance_test mixes_test external_test \
     external_canaries_test external_program_test kdl_reference_test skeleton_test statistics_test \
-    measuring_test measuring_engine_test claims_test figures_test
+    measuring_test measuring_engine_test claims_test figures_test fuzz_corpus_test
   ctest --preset sanitize --parallel "$jobs" --progress --exclude-regex '_NOT_BUILT$|^Install'
 
   step "release: build, every header on its own"

@@ -148,7 +148,7 @@ std::string notes_of(const TableRow& row) {
   if (!also.empty()) text += note("also:", also);
   if (!row.disagreement.empty()) text += note("the judge's checkers disagree:", {row.disagreement});
   if (gave_up(row) && !row.claim_detail.empty()) text += note("reason: " + row.claim_detail, {});
-  if (!row.success && row.rows < row.ticks + 1) {
+  if (!row.success && row.rows <= row.ticks) {
     text += note(
         fmt::format("figures cover the first {} of {} ticks", std::max(row.rows - 1, 0), row.ticks),
         {});

@@ -8,6 +8,8 @@
 #include <sstream>
 #include <string_view>
 
+#include "harness/text_file.hpp"
+
 namespace bqsa::harness {
 namespace {
 
@@ -118,7 +120,7 @@ void check_yaml(const std::string& file, const std::string& text) {
     }
   } catch (const YAML::Exception& error) {
     const int line = error.mark.is_null() ? 1 : error.mark.line + 1;
-    refuse(file, line, "valid YAML", "an error: " + error.msg);
+    refuse(file, line, "valid YAML", "an error: " + excerpt(error.msg));
   }
   if (scan.documents() == 0) refuse(file, 1, "one YAML document", "an empty file");
 }

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <sstream>
 
 #include "harness/judge/judge.hpp"
@@ -89,6 +90,12 @@ TEST(Table, SaysWhereAnHonestMethodGaveUp) {
   EXPECT_THAT(table, HasSubstr("reason: no free motion, link 6, obstacle"));
   EXPECT_THAT(table, HasSubstr("figures cover the first 22 of 400 ticks"));
   EXPECT_THAT(table, Not(HasSubstr("JUDGED A FAILURE")));
+}
+
+TEST(Table, CountsAsManyTicksAsARecordCanHold) {
+  TableRow row = failure("slow", {Failure::kIncomplete});
+  row.ticks = std::numeric_limits<int>::max();
+  EXPECT_THAT(render_table({row}), HasSubstr("figures cover the first 400 of 2147483647 ticks"));
 }
 
 TEST(Table, CallsARunIncompleteIfItsMethodClaimsItIsNot) {

@@ -75,6 +75,8 @@ TEST(BadScenarios, TextThatIsNotYamlIsRefused) {
             "s.yaml:1: expected one YAML document, got an empty file");
   EXPECT_THAT(refusal(directory, "a: 1\nb: [1, 2\n"), StartsWith("s.yaml:3: expected valid YAML"));
   EXPECT_THAT(refusal(directory, "a: \"b"), HasSubstr("expected valid YAML"));
+  EXPECT_EQ(refusal(directory, "a: \"\\\xc3\xa4\""),
+            "s.yaml:1: expected valid YAML, got an error: unknown escape character: \\xc3");
   EXPECT_EQ(refusal(directory, "just words"), "s.yaml:1: expected a mapping, got just words");
   EXPECT_EQ(refusal(directory, "- 1\n- 2\n"), "s.yaml:1: expected a mapping, got a list of 2");
 }
