@@ -128,7 +128,12 @@ std::string text_of(const BadLine& line) {
 std::vector<BadLine> for_each_record(const fs::path& directory,
                                      const std::function<void(const RecordLine&)>& visit) {
   std::vector<BadLine> bad;
+  const auto refuse = [](const fs::path& file) {
+    throw InputError(
+        fmt::format("{}: cannot read: not a file, or not a readable one", file.string()));
+  };
   for (const fs::path& file : record_files(directory)) {
+    if (!fs::is_regular_file(file)) refuse(file);  // a pipe would never end
     std::ifstream in(file, std::ios::binary);
     RecordLine line;
     line.file = file;
@@ -143,10 +148,7 @@ std::vector<BadLine> for_each_record(const fs::path& directory,
         bad.push_back({file, number, error.what()});
       }
     }
-    if (!in.is_open() || in.bad()) {
-      throw InputError(
-          fmt::format("{}: cannot read; a shard that has just ended? Try again", file.string()));
-    }
+    if (!in.is_open() || in.bad()) refuse(file);  // as a shard that has just ended
   }
   return bad;
 }
