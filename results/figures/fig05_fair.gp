@@ -1,8 +1,8 @@
 # Fig. 5 of the paper
 # Time of all detectors against NM, in the plane, nk = 27.
 # To draw it again, as SVG and as PNG: gnuplot fig05_fair.gp
-# bqsa-bench 0.1.0, commit 8eb5689561, GNU 12.2.0, AMD EPYC, measured 2026-11-25T22:24:11Z (quick)
-# flags -O3 -DNDEBUG; governor unknown; others kept 0.01 of 2 cores busy; Debian GNU/Linux 12 (bookworm), kernel 6.18.44-fc-v657
+# bqsa-bench 0.1.0, commit 57ebae6085, GNU 12.2.0, AMD EPYC, measured 2026-11-26T02:39:54Z (quick)
+# flags -O3 -DNDEBUG; governor unknown; others kept 0.00 of 2 cores busy; Debian GNU/Linux 12 (bookworm), kernel 6.18.44-fc-v657
 
 name = "fig05_fair"
 format = exists("format") ? format : "svg"
@@ -28,7 +28,7 @@ set style line 7 linecolor "#d9b13b" linewidth 2 dashtype solid      pointtype 6
 set style line 8 linecolor "#9a9a9a" linewidth 2 dashtype (9,3,2,3,2,3) pointtype 12
 
 set multiplot
-set label 99 "bqsa-bench 0.1.0, commit 8eb5689561, GNU 12.2.0, AMD EPYC, measured 2026-11-25T22:24:11Z (quick)" at screen 0.012,0.016 left font ",9" textcolor "#505050"
+set label 99 "bqsa-bench 0.1.0, commit 57ebae6085, GNU 12.2.0, AMD EPYC, measured 2026-11-26T02:39:54Z (quick)" at screen 0.012,0.016 left font ",9" textcolor "#505050"
 set logscale xy
 set format x "10^{%L}"
 set format y "10^{%L}"
@@ -56,10 +56,10 @@ plot name . ".csv" using "NM":"test_points [us]":"test_points lower [us]":"test_
   name . ".csv" using "NM":"test_points_inside [us]" with linespoints linecolor "#5a1fa6" linewidth 1.8 dashtype (2,3) pointtype 11 title "test points, vectorised, inside test", \
   name . ".csv" using "NM":"test_points_vectorized [us]":"test_points_vectorized lower [us]":"test_points_vectorized upper [us]" with yerrorbars linecolor "#5a1fa6" linewidth 1.2 dashtype solid pointtype 0 notitle, \
   name . ".csv" using "NM":"test_points_vectorized [us]" with linespoints linecolor "#5a1fa6" linewidth 1.8 dashtype (9,4) pointtype 8 title "test points, vectorised", \
-  name . ".csv" using "NM":"fcl_collide_libccd [us]":"fcl_collide_libccd lower [us]":"fcl_collide_libccd upper [us]" with yerrorbars linecolor "#e2662e" linewidth 1.2 dashtype solid pointtype 0 notitle, \
-  name . ".csv" using "NM":"fcl_collide_libccd [us]" with linespoints linecolor "#e2662e" linewidth 1.8 dashtype solid pointtype 5 title "FCL collide, libccd", \
   name . ".csv" using "NM":"bullet_gjk [us]":"bullet_gjk lower [us]":"bullet_gjk upper [us]" with yerrorbars linecolor "#b4b4b4" linewidth 1.2 dashtype solid pointtype 0 notitle, \
   name . ".csv" using "NM":"bullet_gjk [us]" with linespoints linecolor "#b4b4b4" linewidth 1.8 dashtype (2,3) pointtype 1 title "Bullet GJK, early-out", \
+  name . ".csv" using "NM":"fcl_collide_libccd [us]":"fcl_collide_libccd lower [us]":"fcl_collide_libccd upper [us]" with yerrorbars linecolor "#e2662e" linewidth 1.2 dashtype solid pointtype 0 notitle, \
+  name . ".csv" using "NM":"fcl_collide_libccd [us]" with linespoints linecolor "#e2662e" linewidth 1.8 dashtype solid pointtype 5 title "FCL collide, libccd", \
   name . ".csv" using "NM":"fcl_collide_broadphase [us]":"fcl_collide_broadphase lower [us]":"fcl_collide_broadphase upper [us]" with yerrorbars linecolor "#e2662e" linewidth 1.2 dashtype solid pointtype 0 notitle, \
   name . ".csv" using "NM":"fcl_collide_broadphase [us]" with linespoints linecolor "#e2662e" linewidth 1.8 dashtype (2,3) pointtype 12 title "FCL collide, broadphase", \
   name . ".csv" using "NM":"exact_distance [us]":"exact_distance lower [us]":"exact_distance upper [us]" with yerrorbars linecolor "#b3264d" linewidth 1.2 dashtype solid pointtype 0 notitle, \
@@ -70,10 +70,10 @@ plot name . ".csv" using "NM":"test_points [us]":"test_points lower [us]":"test_
   name . ".csv" using "NM":"ccd_mpr [us]" with linespoints linecolor "#b4b4b4" linewidth 1.8 dashtype (9,4) pointtype 14 title "libccd MPR", \
   name . ".csv" using "NM":"exact_distance_batched [us]":"exact_distance_batched lower [us]":"exact_distance_batched upper [us]" with yerrorbars linecolor "#b3264d" linewidth 1.2 dashtype solid pointtype 0 notitle, \
   name . ".csv" using "NM":"exact_distance_batched [us]" with linespoints linecolor "#b3264d" linewidth 1.8 dashtype (9,4) pointtype 12 title "exact distance, batched", \
-  name . ".csv" using "NM":"bqsa_paper [us]":"bqsa_paper lower [us]":"bqsa_paper upper [us]" with yerrorbars linecolor "#000000" linewidth 1.2 dashtype solid pointtype 0 notitle, \
-  name . ".csv" using "NM":"bqsa_paper [us]" with linespoints linecolor "#000000" linewidth 1.8 dashtype solid pointtype 7 title "BQSA, paper's form", \
   name . ".csv" using "NM":"bqsa_paper_shared [us]":"bqsa_paper_shared lower [us]":"bqsa_paper_shared upper [us]" with yerrorbars linecolor "#000000" linewidth 1.2 dashtype solid pointtype 0 notitle, \
   name . ".csv" using "NM":"bqsa_paper_shared [us]" with linespoints linecolor "#000000" linewidth 1.8 dashtype (9,3,2,3) pointtype 6 title "BQSA, paper's form, shared products", \
+  name . ".csv" using "NM":"bqsa_paper [us]":"bqsa_paper lower [us]":"bqsa_paper upper [us]" with yerrorbars linecolor "#000000" linewidth 1.2 dashtype solid pointtype 0 notitle, \
+  name . ".csv" using "NM":"bqsa_paper [us]" with linespoints linecolor "#000000" linewidth 1.8 dashtype solid pointtype 7 title "BQSA, paper's form", \
   name . ".csv" using "NM":"bqsa_parameter [us]":"bqsa_parameter lower [us]":"bqsa_parameter upper [us]" with yerrorbars linecolor "#000000" linewidth 1.2 dashtype solid pointtype 0 notitle, \
   name . ".csv" using "NM":"bqsa_parameter [us]" with linespoints linecolor "#000000" linewidth 1.8 dashtype (2,3) pointtype 4 title "BQSA, parameter form", \
   name . ".csv" using "NM":"bqsa_space [us]":"bqsa_space lower [us]":"bqsa_space upper [us]" with yerrorbars linecolor "#000000" linewidth 1.2 dashtype solid pointtype 0 notitle, \

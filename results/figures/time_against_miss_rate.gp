@@ -1,7 +1,7 @@
 # Time a pair against the share of hits that are missed, all detectors in the plane: test points are labelled with NM.
 # To draw it again, as SVG and as PNG: gnuplot time_against_miss_rate.gp
-# bqsa-bench 0.1.0, commit 8eb5689561, GNU 12.2.0, AMD EPYC, measured 2026-11-25T22:24:11Z (quick)
-# flags -O3 -DNDEBUG; governor unknown; others kept 0.01 of 2 cores busy; Debian GNU/Linux 12 (bookworm), kernel 6.18.44-fc-v657
+# bqsa-bench 0.1.0, commit 57ebae6085, GNU 12.2.0, AMD EPYC, measured 2026-11-26T02:39:54Z (quick)
+# flags -O3 -DNDEBUG; governor unknown; others kept 0.00 of 2 cores busy; Debian GNU/Linux 12 (bookworm), kernel 6.18.44-fc-v657
 
 name = "time_against_miss_rate"
 format = exists("format") ? format : "svg"
@@ -27,7 +27,7 @@ set style line 7 linecolor "#d9b13b" linewidth 2 dashtype solid      pointtype 6
 set style line 8 linecolor "#9a9a9a" linewidth 2 dashtype (9,3,2,3,2,3) pointtype 12
 
 set multiplot
-set label 99 "bqsa-bench 0.1.0, commit 8eb5689561, GNU 12.2.0, AMD EPYC, measured 2026-11-25T22:24:11Z (quick)" at screen 0.012,0.016 left font ",9" textcolor "#505050"
+set label 99 "bqsa-bench 0.1.0, commit 57ebae6085, GNU 12.2.0, AMD EPYC, measured 2026-11-26T02:39:54Z (quick)" at screen 0.012,0.016 left font ",9" textcolor "#505050"
 set logscale xy
 set format x "10^{%L}"
 set format y "10^{%L}"
@@ -50,15 +50,15 @@ plot name . "_anywhere.csv" using "shown at":(stringcolumn("detector") eq "test_
   name . "_anywhere.csv" using "shown at":(stringcolumn("detector") eq "test_points_inside" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#5a1fa6" linewidth 1.8 dashtype (2,3) pointtype 11 title "test points, vectorised, inside test", \
   "" using "shown at":(stringcolumn("detector") eq "test_points_inside" ? column("time a pair [ns]") : NaN):(column("NM") < 10 ? "" : sprintf("%g", column("NM"))) with labels font ",10" offset -2.3,-0.3 notitle, \
   name . "_anywhere.csv" using "shown at":(stringcolumn("detector") eq "test_points_vectorized" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#5a1fa6" linewidth 1.8 dashtype (9,4) pointtype 8 title "test points, vectorised", \
-  name . "_anywhere.csv" using "shown at":(stringcolumn("detector") eq "fcl_collide_libccd" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#e2662e" linewidth 1.8 dashtype solid pointtype 5 title "FCL collide, libccd", \
   name . "_anywhere.csv" using "shown at":(stringcolumn("detector") eq "bullet_gjk" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#b4b4b4" linewidth 1.8 dashtype (2,3) pointtype 1 title "Bullet GJK, early-out", \
+  name . "_anywhere.csv" using "shown at":(stringcolumn("detector") eq "fcl_collide_libccd" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#e2662e" linewidth 1.8 dashtype solid pointtype 5 title "FCL collide, libccd", \
   name . "_anywhere.csv" using "shown at":(stringcolumn("detector") eq "fcl_collide_broadphase" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#e2662e" linewidth 1.8 dashtype (2,3) pointtype 12 title "FCL collide, broadphase", \
   name . "_anywhere.csv" using "shown at":(stringcolumn("detector") eq "exact_distance" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#b3264d" linewidth 1.8 dashtype solid pointtype 13 title "exact distance", \
   name . "_anywhere.csv" using "shown at":(stringcolumn("detector") eq "ccd_gjk" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#b4b4b4" linewidth 1.8 dashtype solid pointtype 6 title "libccd GJK", \
   name . "_anywhere.csv" using "shown at":(stringcolumn("detector") eq "ccd_mpr" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#b4b4b4" linewidth 1.8 dashtype (9,4) pointtype 14 title "libccd MPR", \
   name . "_anywhere.csv" using "shown at":(stringcolumn("detector") eq "exact_distance_batched" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#b3264d" linewidth 1.8 dashtype (9,4) pointtype 12 title "exact distance, batched", \
-  name . "_anywhere.csv" using "shown at":(stringcolumn("detector") eq "bqsa_paper" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#000000" linewidth 1.8 dashtype solid pointtype 7 title "BQSA, paper's form", \
   name . "_anywhere.csv" using "shown at":(stringcolumn("detector") eq "bqsa_paper_shared" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#000000" linewidth 1.8 dashtype (9,3,2,3) pointtype 6 title "BQSA, paper's form, shared products", \
+  name . "_anywhere.csv" using "shown at":(stringcolumn("detector") eq "bqsa_paper" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#000000" linewidth 1.8 dashtype solid pointtype 7 title "BQSA, paper's form", \
   name . "_anywhere.csv" using "shown at":(stringcolumn("detector") eq "bqsa_parameter" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#000000" linewidth 1.8 dashtype (2,3) pointtype 4 title "BQSA, parameter form", \
   name . "_anywhere.csv" using "shown at":(stringcolumn("detector") eq "bqsa_space" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#000000" linewidth 1.8 dashtype (9,3,2,3) pointtype 12 title "BQSA in 3-D", \
   name . "_anywhere.csv" using "shown at":(stringcolumn("detector") eq "bqsa" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#000000" linewidth 1.8 dashtype (9,4) pointtype 5 title "BQSA", \
@@ -79,15 +79,15 @@ plot name . "_first_contact.csv" using "shown at":(stringcolumn("detector") eq "
   name . "_first_contact.csv" using "shown at":(stringcolumn("detector") eq "test_points_inside" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#5a1fa6" linewidth 1.8 dashtype (2,3) pointtype 11 notitle, \
   "" using "shown at":(stringcolumn("detector") eq "test_points_inside" ? column("time a pair [ns]") : NaN):(column("NM") < 10 ? "" : sprintf("%g", column("NM"))) with labels font ",10" offset -2.3,-0.3 notitle, \
   name . "_first_contact.csv" using "shown at":(stringcolumn("detector") eq "test_points_vectorized" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#5a1fa6" linewidth 1.8 dashtype (9,4) pointtype 8 notitle, \
-  name . "_first_contact.csv" using "shown at":(stringcolumn("detector") eq "fcl_collide_libccd" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#e2662e" linewidth 1.8 dashtype solid pointtype 5 notitle, \
   name . "_first_contact.csv" using "shown at":(stringcolumn("detector") eq "bullet_gjk" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#b4b4b4" linewidth 1.8 dashtype (2,3) pointtype 1 notitle, \
+  name . "_first_contact.csv" using "shown at":(stringcolumn("detector") eq "fcl_collide_libccd" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#e2662e" linewidth 1.8 dashtype solid pointtype 5 notitle, \
   name . "_first_contact.csv" using "shown at":(stringcolumn("detector") eq "fcl_collide_broadphase" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#e2662e" linewidth 1.8 dashtype (2,3) pointtype 12 notitle, \
   name . "_first_contact.csv" using "shown at":(stringcolumn("detector") eq "exact_distance" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#b3264d" linewidth 1.8 dashtype solid pointtype 13 notitle, \
   name . "_first_contact.csv" using "shown at":(stringcolumn("detector") eq "ccd_gjk" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#b4b4b4" linewidth 1.8 dashtype solid pointtype 6 notitle, \
   name . "_first_contact.csv" using "shown at":(stringcolumn("detector") eq "ccd_mpr" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#b4b4b4" linewidth 1.8 dashtype (9,4) pointtype 14 notitle, \
   name . "_first_contact.csv" using "shown at":(stringcolumn("detector") eq "exact_distance_batched" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#b3264d" linewidth 1.8 dashtype (9,4) pointtype 12 notitle, \
-  name . "_first_contact.csv" using "shown at":(stringcolumn("detector") eq "bqsa_paper" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#000000" linewidth 1.8 dashtype solid pointtype 7 notitle, \
   name . "_first_contact.csv" using "shown at":(stringcolumn("detector") eq "bqsa_paper_shared" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#000000" linewidth 1.8 dashtype (9,3,2,3) pointtype 6 notitle, \
+  name . "_first_contact.csv" using "shown at":(stringcolumn("detector") eq "bqsa_paper" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#000000" linewidth 1.8 dashtype solid pointtype 7 notitle, \
   name . "_first_contact.csv" using "shown at":(stringcolumn("detector") eq "bqsa_parameter" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#000000" linewidth 1.8 dashtype (2,3) pointtype 4 notitle, \
   name . "_first_contact.csv" using "shown at":(stringcolumn("detector") eq "bqsa_space" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#000000" linewidth 1.8 dashtype (9,3,2,3) pointtype 12 notitle, \
   name . "_first_contact.csv" using "shown at":(stringcolumn("detector") eq "bqsa" ? column("time a pair [ns]") : NaN) with linespoints linecolor "#000000" linewidth 1.8 dashtype (9,4) pointtype 5 notitle, \

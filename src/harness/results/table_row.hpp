@@ -25,12 +25,12 @@ struct TableRow {
   std::string changed;  ///< those parameters
   std::string seed;     ///< of a planning method; empty if it answers tick by tick, or is unknown
   std::string key;      ///< CampaignPlace::key; empty if it is not of a campaign
-  int repetition = 0;   ///< CampaignPlace::repetition; 0 if it is not of a campaign
   std::string disturbance;  ///< what disturbed it, as text; empty if nothing did
   std::string build;        ///< program, compiler and machine, as text
   std::string compiler;
   std::string processor;
-  int ticks = 0;  ///< of the problem
+  int repetition = 0;  ///< CampaignPlace::repetition; 0 if it is not of a campaign
+  int ticks = 0;       ///< of the problem
 
   bool applicable = true;
   bool success = false;  ///< as judged

@@ -420,7 +420,8 @@ TEST_F(PairRun, WithoutTrajectoriesOlderOnesStay) {
   const std::filesystem::path file = directory_.path() / "trajectories/planar_7r/still.csv";
   const auto written = std::filesystem::last_write_time(file);
   ResultStore store(directory_.path());
-  const Circumstances bare{.settings = {}, .command_line = "test", .trajectories = KeptTrajectories::kNone};
+  const Circumstances bare{
+      .settings = {}, .command_line = "test", .trajectories = KeptTrajectories::kNone};
   for (const char* name : {"still", "other"}) {
     const StoredRun stored = run_pair(scenario_, judge_, scripted(name, stand_still), bare, store);
     EXPECT_TRUE(Json::parse(stored.record)["trajectory"].is_null());
