@@ -87,7 +87,7 @@ void drop_cut_line(const fs::path& file) {
 
 /// The file to which records are added, ready for it.
 fs::path opened(const fs::path& directory, const Shard& shard) {
-  const fs::path file = taken_up(directory, shard);
+  fs::path file = taken_up(directory, shard);
   drop_cut_line(directory / file);
   return file;
 }

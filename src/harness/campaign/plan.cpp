@@ -45,7 +45,7 @@ fs::path program_named(const std::string& word) {
   const char* const path = std::getenv("PATH");
   std::istringstream directories(path == nullptr ? "" : path);
   for (std::string directory; std::getline(directories, directory, ':');) {
-    const fs::path file = fs::path(directory) / word;
+    fs::path file = fs::path(directory) / word;
     if (is_file(file)) return file;
   }
   return {};

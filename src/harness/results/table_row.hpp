@@ -35,6 +35,7 @@ struct TableRow {
   bool applicable = true;
   bool success = false;  ///< as judged
   bool claim_holds = true;
+  bool touching = false;              ///< came within the judge's accuracy of contact
   std::string claim;                  ///< `success`, `gave up at tick 7`, ...
   std::string claim_detail;           ///< why, if the method says so
   std::vector<std::string> failures;  ///< names of the judge's failures, the most telling first
@@ -48,15 +49,14 @@ struct TableRow {
   int failure_link = 0;          ///< 0 if there is none
   std::string failure_obstacle;  ///< empty if there is none
 
-  int rows = 0;                       ///< rows of the trajectory, the start included
+  int rows = 0;  ///< rows of the trajectory, the start included
+  int guard_fired = 0;
   std::vector<std::string> collided;  ///< `(6, obstacle)`
   std::vector<std::string> clamped;   ///< `(6, obstacle) x 123`, the number being ticks
-  int guard_fired = 0;
-  double start_error_m = kNone;  ///< of the tip
+  double start_error_m = kNone;       ///< of the tip
   double tip_error_at_ticks_m = kNone;
   double tip_error_between_ticks_m = kNone;
   double clearance_m = kNone;
-  bool touching = false;
   double max_joint_step_rad = kNone;
 
   /// Of ticks these are read for successes only: a run that collides, drifts or lies has none.
