@@ -191,14 +191,16 @@ class Runs(list):
         """The time [s] that this share of all ticks from 2 on of all successes does not exceed, to 2.2 %.
         None if no tick was timed."""
         counts = collections.Counter()
+        slowest = 0.0  # a bin may reach beyond it
         for run in self.successes:
             for bin_, count in run.valid_times.get("warm_histogram", []):
                 counts[bin_] += count
+            slowest = max(slowest, run.valid_times.get("warm_max_s") or 0.0)
         below, rank = 0, math.ceil(share * sum(counts.values()))
         for bin_ in sorted(counts):
             below += counts[bin_]
             if below >= rank:
-                return NANOSECOND * (2 ** ((bin_ - 0.5) / 16) if bin_ > 0 else 0)
+                return min(NANOSECOND * (2 ** ((bin_ - 0.5) / 16) if bin_ > 0 else 0), slowest)
         return None
 
 

@@ -48,28 +48,28 @@ struct RunOptions {
   /// Files, and directories of files `*.yaml`; or a campaign.
   std::vector<std::filesystem::path> scenarios;
   std::vector<std::string> methods;  ///< `M[:key=value,...]`; none means all
-  LoadOptions load;
   std::filesystem::path directory;
-  bool strict = false;
-  bool quiet = false;        ///< neither progress nor table
-  bool trajectories = true;  ///< stored
-  double joint_noise = 0;    ///< Disturbance::joint_noise [rad]
-  bool latency = false;      ///< of one tick
+  double joint_noise = 0;  ///< Disturbance::joint_noise [rad]
   std::uint64_t seed = 1;
-  int seeds = 1;            ///< planning methods run once with each of seed, seed + 1, ...
   double plan_budget = 10;  ///< of planning methods [s]
   double time_limit = 120;  ///< of a run [s]
   int memory_limit = 4096;  ///< of a run [MiB]
-  bool in_process = false;  ///< without a process of its own and without limits
-  ReportOptions report;
-  std::string command_line;  ///< as recorded
+  int seeds = 1;            ///< planning methods run once with each of seed, seed + 1, ...
+  LoadOptions load;
+  bool strict = false;
+  bool quiet = false;        ///< neither progress nor table
+  bool trajectories = true;  ///< stored
+  bool latency = false;      ///< of one tick
+  bool in_process = false;   ///< without a process of its own and without limits
 
   /// Of a campaign.
-  int jobs = 0;               ///< runs side by side; 0: as many as there are processors
-  std::string shard;          ///< `k/N`; empty: all of it
   bool force = false;         ///< runs that are recorded already, too
   bool shuffled = false;      ///< in random order
   std::uint64_t shuffle = 1;  ///< seed of that
+  int jobs = 0;               ///< runs side by side; 0: as many as there are processors
+  ReportOptions report;
+  std::string shard;         ///< `k/N`; empty: all of it
+  std::string command_line;  ///< as recorded
 
   /// Options that were given and mean something without a campaign, or with one, only.
   std::vector<std::string> not_for_campaigns;
