@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # From a fresh clone on Debian 12 to the results: installs what is missing, builds, runs the variants on a
 # few hundred random problems and all methods on the paper's scenarios, measures times, draws the paper's
-# figures and judges its claims; prints summary, table and claims. Ends with 1 if a claim no longer holds.
+# figures and judges its claims; prints summary, table and claims, and writes them as pages to look at.
+# Ends with 1 if a claim no longer holds.
 set -euo pipefail
 cd "$(dirname "$0")"
 start=$SECONDS
@@ -21,8 +22,8 @@ program=build/release/src/harness/program/bqsa-bench
 echo
 # All methods as they are, and the test-point method once more with the gains and the density of points
 # that it needs to pass the PUMA 560 scenes.
-"$program" run scenarios/*.yaml --out "$out" --quiet
-"$program" run scenarios/*.yaml --out "$out" --quiet \
+"$program" run scenarios/*.yaml --out "$out" --quiet --no-report
+"$program" run scenarios/*.yaml --out "$out" --quiet --no-report \
   --method test_point:law=gradient_projection,n=50,m=2000,influence=0.08,gradient_gain=600
 "$program" show "$out"
 
@@ -34,10 +35,13 @@ echo
 status=0
 "$program" claims --quick --measurements "$out/measurements.json" --out "$out/claims" || status=$?
 
+"$program" report "$out" > /dev/null || { [ $status -ne 0 ] || status=2; }
+
 seconds=$((SECONDS - start))
 echo
 echo "results: $out (runs.jsonl, trajectories); show them again: $program show $out"
-echo "random problems: $program show $out/random_problems --summary (or --failures)"
+echo "random problems: $out/random_problems/report.html, or $program show $out/random_problems --summary (or --failures)"
 echo "times: $out/measurements.txt; figures: $out/figures/index.md; claims: $out/claims/claims.md"
 printf 'elapsed: %d min %d s\n' $((seconds / 60)) $((seconds % 60))
+[ ! -e "$out/report.html" ] || echo "table, measurements, claims and the arm's motions, in a browser: $out/report.html"
 exit $status

@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 
 set(BQSA_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/bqsa-bench)
 
-install(TARGETS bqsa baselines baselines_fcl baselines_ompl mixes harness measuring exchange figures claims program
+install(TARGETS bqsa baselines baselines_fcl baselines_ompl mixes harness measuring exchange figures claims problem_sets report program
   EXPORT bqsa-bench-targets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/bqsa-bench)
 if(TARGET bqsa-bench)

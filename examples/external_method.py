@@ -13,7 +13,7 @@ DESCRIPTION = {
     "summary": "damped least squares, pushed away from nearest points in the null space",
     "source": "Liegeois 1977 (gradient projection)",
     "capabilities": {"planar": True, "spatial": True, "link_radius": True, "margin": True,
-                     "moving": True, "keeps_limits": False},
+                     "moving": True, "prismatic": True, "keeps_limits": False},
     "parameters": [
         {"name": "influence", "unit": "m", "default": 0.04, "minimum": 1e-3, "maximum": 10,
          "meaning": "clearance below which an obstacle pushes"},
@@ -35,21 +35,26 @@ def turned(v, axis, angle):
     along = (1 - c) * dot(axis, v)
     return [c * v[i] + s * w + along * axis[i] for i, w in enumerate(cross(axis, v))]
 
-def pose(zero, q):
-    """Axes, pivots and points of the arm for joint angles q: those for q = 0, turned joint by joint."""
+def pose(robot, q):
+    """Axes, pivots and points of the arm for joint values q: those for q = 0, moved joint by joint."""
+    zero = robot["at_zero"]
     axes, pivots, points = ([list(v) for v in zero[key]] for key in ("axes", "pivots", "points"))
     for j in reversed(range(len(q))):  # a joint takes along all that is further out
         about, through = zero["axes"][j], zero["pivots"][j]
-        move = lambda p: add(through, turned(add(p, through, -1), about, q[j]))
-        axes[j + 1:] = [turned(axis, about, q[j]) for axis in axes[j + 1:]]
+        if robot["joint_types"][j] == "prismatic":
+            move = lambda p: add(p, about, q[j])
+        else:
+            move = lambda p: add(through, turned(add(p, through, -1), about, q[j]))
+            axes[j + 1:] = [turned(axis, about, q[j]) for axis in axes[j + 1:]]
         pivots[j + 1:] = [move(p) for p in pivots[j + 1:]]
         points = [move(p) if zero["moving_joints"][k] > j else p for k, p in enumerate(points)]
     return axes, pivots, points
 
-def jacobian(axes, pivots, point, joints):
+def jacobian(types, axes, pivots, point, joints):
     """3 x n; only the first `joints` joints move the point."""
-    return transposed([cross(axes[j], add(point, pivots[j], -1)) if j < joints else [0.0] * 3
-                       for j in range(len(axes))])
+    column = lambda j: (axes[j] if types[j] == "prismatic"
+                        else cross(axes[j], add(point, pivots[j], -1)))
+    return transposed([column(j) if j < joints else [0.0] * 3 for j in range(len(axes))])
 
 def solved(A, b):
     """x with A x = b, A symmetric and positive definite (Gauss)."""
@@ -83,26 +88,27 @@ def nearest(a, b, obstacle):
 
 def step(problem, parameters, request):
     q, robot, dt, tick = request["q"], problem["robot"], problem["dt"], request["tick"]
-    zero, task = robot["at_zero"], robot["dimension"]
-    axes, pivots, points = pose(zero, q)
-    J = jacobian(axes, pivots, points[-1], len(q))[:task]
+    types, task = robot["joint_types"], robot["dimension"]
+    moving = robot["at_zero"]["moving_joints"]
+    axes, pivots, points = pose(robot, q)
+    J = jacobian(types, axes, pivots, points[-1], len(q))[:task]
     track = least_squares(J, add(request["p_WT_desired"], points[-1], -1)[:task])
 
     push, clamps = [0.0] * len(q), []
     for index, obstacle in enumerate(problem["obstacles"]):
         shape = dict(obstacle, **(obstacle["motion"][tick] if obstacle["motion"] else {}))
         found = []
-        for link in robot["links"]:
+        for link, radius in zip(robot["links"], problem["link_radii"]):
             a, b = points[link["start"]], points[link["end"]]
             if link["end"] == len(points) - 1:  # the last part has to be where the task is
                 part = parameters["exempt_length"] / math.dist(a, b)
                 b = add(b, add(b, a, -1), -min(part, 1 - 1e-6))
-            found.append((nearest(a, b, shape), a, b, link))
-        (distance, t, normal), a, b, link = min(found, key=lambda item: item[0][0])
-        clearance = distance - problem["link_radius"] - problem["margin"]
+            distance, t, normal = nearest(a, b, shape)
+            found.append((distance - radius - problem["margin"], t, normal, a, b, link))
+        clearance, t, normal, a, b, link = min(found, key=lambda item: item[0])
         if clearance < parameters["influence"]:
             point = add(a, add(b, a, -1), t)
-            away = transposed(jacobian(axes, pivots, point, zero["moving_joints"][link["end"]]))
+            away = transposed(jacobian(types, axes, pivots, point, moving[link["end"]]))
             size = parameters["gain"] * (parameters["influence"] - clearance) * dt
             push = add(push, apply(away, normal), size)
             clamps.append({"link": link["number"], "obstacle": index})

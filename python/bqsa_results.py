@@ -90,6 +90,11 @@ class Run:
         return family_of(self.record.scenario.name)
 
     @property
+    def robot(self):
+        """Its name; None if it has none, and of older records."""
+        return self.record.at("problem.robot")
+
+    @property
     def applicable(self):
         return self.record.judged is not None
 

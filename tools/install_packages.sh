@@ -1,17 +1,19 @@
 #!/usr/bin/env bash
 # Installs what packages.txt lists for the given steps and is missing; does nothing if all is there.
 #   tools/install_packages.sh program tests
+# A package with a command in the third column is left alone where there is such a command already.
 # Without the rights to install it prints the command to run instead and fails.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 missing=()
 for step in "$@"; do
-  while read -r package; do
+  while read -r package command; do
+    [ -z "$command" ] || ! command -v "$command" >/dev/null || continue
     status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null) ||
       status=unknown
     [ "$status" = installed ] || missing+=("$package")
-  done < <(awk -v step="$step" '!/^#/ && $2 == step { print $1 }' packages.txt)
+  done < <(awk -v step="$step" '!/^#/ && $2 == step { print $1, $3 }' packages.txt)
 done
 [ ${#missing[@]} -gt 0 ] || exit 0
 

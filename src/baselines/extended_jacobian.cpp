@@ -62,8 +62,8 @@ void ExtendedJacobian::prepare(const Problem& problem) {
 void ExtendedJacobian::step(const StepInput& input, StepOutput& output) {
   output = {};
   surroundings_.look(input.tick, input.q);
-  const TaskJacobian J = surroundings_.tip_jacobian();
-  const JointVector& tracking = surroundings_.track(input.p_WT_desired);
+  const TaskJacobian J = surroundings_.task_jacobian();
+  const JointVector& tracking = surroundings_.track(input);
   for (const Escape& escape : surroundings_.escapes()) {
     surroundings_.record(escape, output);
   }
@@ -85,7 +85,7 @@ JointVector ExtendedJacobian::hessian_along(const JointVector& z, const TaskVect
                                             const StepInput& input) {
   const auto gradient_of_lagrangian = [&](const JointVector& q) -> JointVector {
     surroundings_.look(input.tick, q);
-    return gradient(q) - surroundings_.tip_jacobian().transpose() * lambda;
+    return gradient(q) - surroundings_.task_jacobian().transpose() * lambda;
   };
   const JointVector ahead = gradient_of_lagrangian(input.q + kDifference * z);
   const JointVector behind = gradient_of_lagrangian(input.q - kDifference * z);

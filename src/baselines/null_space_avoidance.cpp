@@ -34,9 +34,9 @@ void NullSpaceAvoidance::step(const StepInput& input, StepOutput& output) {
   output = {};
   surroundings_.look(input.tick, input.q);
 
-  const JointVector& tracking = surroundings_.track(input.p_WT_desired);
+  const JointVector& tracking = surroundings_.track(input);
   const std::vector<Escape>& escapes = surroundings_.escapes();
-  if (!escapes.empty()) self_motions_.assign(surroundings_.tip_jacobian());
+  if (!escapes.empty()) self_motions_.assign(surroundings_.task_jacobian());
   JointVector avoidance = JointVector::Zero(input.q.size());
   for (const Escape& escape : escapes) {
     avoidance += self_motion_away(escape.clearance, settings_.escape_velocity + escape.approach,

@@ -1,6 +1,7 @@
 #include "baselines/plain_tracking.hpp"
 
 #include "bqsa/hybrid_ik.hpp"
+#include "bqsa/tip_task.hpp"
 
 namespace bqsa::baselines {
 namespace {
@@ -9,17 +10,17 @@ class PlainTracking final : public ReactiveMethod {
  public:
   void prepare(const Problem& problem) override {
     problem_ = &problem;
+    task_ = TipTask(problem);
     counters_ = {};
     no_weights_ = JointVector::Ones(problem.chain.joints());
     no_clamping_ = JointVector::Zero(problem.chain.joints());
   }
 
   void step(const StepInput& input, StepOutput& output) override {
-    const SerialChain& chain = problem_->chain;
-    chain.forward(input.q, pose_);
-    chain.jacobian(pose_, chain.points() - 1, J_);
-    const TaskVector x_dot =
-        (input.p_WT_desired - pose_.tip()).head(chain.dimension()) / problem_->dt;
+    task_.turn_to(input.R_WT_desired);
+    problem_->chain.forward(input.q, pose_);
+    task_.jacobian(pose_, J_);
+    const TaskVector x_dot = task_.error(pose_, input.p_WT_desired) / problem_->dt;
     solve_hybrid_ik(J_, x_dot, no_weights_, no_clamping_, {}, ik_);
     output.q = input.q + problem_->dt * ik_.q_dot;
     output.state = TickState::kUnclaimed;
@@ -30,6 +31,7 @@ class PlainTracking final : public ReactiveMethod {
 
  private:
   const Problem* problem_ = nullptr;
+  TipTask task_;
   JointVector no_weights_;
   JointVector no_clamping_;
   ChainPose pose_;
@@ -48,6 +50,7 @@ MethodEntry plain_tracking_method() {
                            .link_radius = true,
                            .margin = true,
                            .moving = true,
+                           .orientation = true,
                            .keeps_limits = false},
           .parameters = {},
           .make = [](const ParameterValues&) { return std::make_unique<PlainTracking>(); }};

@@ -47,14 +47,14 @@ void PotentialField::prepare(const Problem& problem) {
 void PotentialField::step(const StepInput& input, StepOutput& output) {
   output = {};
   surroundings_.look(input.tick, input.q);
-  const JointVector& tracking = surroundings_.track(input.p_WT_desired);
+  const JointVector& tracking = surroundings_.track(input);
   JointVector repulsion = JointVector::Zero(input.q.size());
   for (const Escape& escape : surroundings_.escapes()) {
     repulsion += settings_.gain * repulsive_force(escape.clearance, settings_) * escape.j0;
     surroundings_.record(escape, output);
   }
   if (settings_.where == RepulsionSpace::kNullSpace && !surroundings_.escapes().empty()) {
-    self_motions_.assign(surroundings_.tip_jacobian());
+    self_motions_.assign(surroundings_.task_jacobian());
     repulsion = self_motions_.project(repulsion);
   }
   make_step(*problem_, input, tracking, repulsion, settings_.step_limit, output);
@@ -67,8 +67,12 @@ MethodEntry potential_field_method() {
       .source =
           "Khatib: Real-Time Obstacle Avoidance for Manipulators and Mobile Robots, Int. J. of "
           "Robotics Research 5(1), 1986",
-      .capabilities =
-          {.planar = true, .spatial = true, .link_radius = true, .margin = true, .moving = true},
+      .capabilities = {.planar = true,
+                       .spatial = true,
+                       .link_radius = true,
+                       .margin = true,
+                       .moving = true,
+                       .orientation = true},
       .parameters = {choice_parameter("where", {"null_space", "task"},
                                       "where the repulsion acts: self-motions only, or all joints"),
                      {"influence", "m", kDefaults.influence, 1e-6, 10,

@@ -57,7 +57,7 @@ void WeightedLeastNorm::prepare(const Problem& problem) {
 void WeightedLeastNorm::step(const StepInput& input, StepOutput& output) {
   output = {};
   surroundings_.look(input.tick, input.q);
-  const TaskVector x_dot = surroundings_.tip_velocity(input.p_WT_desired);
+  const TaskVector x_dot = surroundings_.task_velocity(input);
   JointVector motion = (input.q - q_before_) / problem_->dt;
   if (settings_.motion == JudgedMotion::kPlanned) {
     solve(x_dot, no_weights_);
@@ -95,7 +95,7 @@ void WeightedLeastNorm::solve(const TaskVector& x_dot, const JointVector& weight
   HybridIkSettings settings;
   settings.singular_threshold *= scale;
   settings.lambda_max *= scale;
-  solve_hybrid_ik(surroundings_.tip_jacobian(), x_dot, weights, no_clamping_, settings, ik_);
+  solve_hybrid_ik(surroundings_.task_jacobian(), x_dot, weights, no_clamping_, settings, ik_);
   ++counters_.linear_solves;
 }
 
@@ -111,7 +111,8 @@ MethodEntry weighted_least_norm_method() {
                            .spatial = true,
                            .link_radius = true,
                            .margin = true,
-                           .moving = true},
+                           .moving = true,
+                           .orientation = true},
           .parameters = {{"influence", "m", kDefaults.influence, 1e-6, 10,
                           "clearance below which an obstacle has weight"},
                          {"gain", "m^beta", kDefaults.gain, 0, 1e9,

@@ -8,6 +8,7 @@ namespace bqsa {
 
 void BackwardSearch::prepare(const Problem& problem) {
   problem_ = &problem;
+  task_ = TipTask(problem);
   counters_ = {};
   answered_ = false;
   lean(JointVector::Zero(problem.chain.joints()));
@@ -18,6 +19,7 @@ void BackwardSearch::step(const StepInput& input, StepOutput& output) {
   clear(output);
   increments_left_ = settings_.max_increments;
   go_to(input.tick);
+  task_.turn_to(input.R_WT_desired);
 
   if (!predict(input)) return hold(input.q, Infeasible::kDiverged, 0, -1, output);  // 1, 2
   if (is_clear(input)) return answer(input, output);  // 3 to 6 would find nothing to do
@@ -75,10 +77,10 @@ Infeasible BackwardSearch::search(const StepInput& input, const JointVector& q_p
 void BackwardSearch::answer(const StepInput& input, StepOutput& output) {
   output.q = q_;
   answered_ = true;
-  const double tip_error = (input.p_WT_desired - pose_.tip()).norm();
-  output.state = tip_error > problem_->tolerance ? TickState::kUnclaimed
-                 : output.clamp_count > 0        ? TickState::kClamped
-                                                 : TickState::kFree;
+  const double tip_error = task_.distance(pose_, input.p_WT_desired);
+  output.state = tip_error > TipTask::tolerance(*problem_) ? TickState::kUnclaimed
+                 : output.clamp_count > 0                  ? TickState::kClamped
+                                                           : TickState::kFree;
 }
 
 /// Whether lists that were made before prove that nothing is in the way of the prediction.
@@ -98,6 +100,7 @@ Infeasible BackwardSearch::release_links(const StepInput& input, StepOutput& out
 bool BackwardSearch::fit(int tick, const Eigen::Vector3d& p_WT, double distance,
                          const JointBox& box, JointVector& q) {
   go_to(tick);
+  task_.turn_to(problem_->rotation_at(problem_->time(tick)));
   keep(problem_->link_radius + problem_->margin + distance);
   answered_ = false;
   q_ = q;
@@ -120,19 +123,21 @@ void BackwardSearch::start_at(const JointVector& q) {
 bool BackwardSearch::predict(const StepInput& input) {
   const SerialChain& chain = problem_->chain;
   start_at(input.q);
-  x_dot_ = (input.p_WT_desired - pose_.tip()).head(chain.dimension()) / problem_->dt;
-  if (chain.in_plane() && !leans_ && predict_in_plane(input)) return true;
+  x_dot_ = task_.error(pose_, input.p_WT_desired) / problem_->dt;
+  const JointVector* phi = clamping_velocity(input.q);
+  if (chain.in_plane() && !phi && predict_in_plane(input)) return true;
 
-  chain.jacobian(pose_, chain.points() - 1, J_tip_);
+  task_.jacobian(pose_, J_tip_);
   ++counters_.jacobians;
   ik_start_.assign(J_tip_, settings_.ik);
   ++counters_.linear_solves;
   JointVector q_dot;
   ik_start_.solve(x_dot_, q_dot);
-  if (leans_) {
+  if (phi) {
     JointVector self_motion;
-    ik_start_.project(lean_, self_motion);
-    q_dot += self_motion;
+    ik_start_.project(*phi, self_motion);
+    const bool limited = settings_.joint_limits.band > 0;
+    q_dot += (limited ? part_within_steps(*problem_, q_dot, self_motion) : 1) * self_motion;
   }
   q_ += problem_->dt * q_dot;
   if (settings_.corrections == 0) {
@@ -142,6 +147,14 @@ bool BackwardSearch::predict(const StepInput& input) {
   chain.forward_from(input.q, q_, pose_);
   ++counters_.kinematics;
   return correct_tip(input, ik_start_, x_dot_.norm() * problem_->dt);
+}
+
+/// phi of the predictor [rad/s], null if it is zero.
+const JointVector* BackwardSearch::clamping_velocity(const JointVector& q) {
+  if (settings_.joint_limits.band == 0) return leans_ ? &lean_ : nullptr;
+  const bool clamps = clamp_at_limits(*problem_, settings_.joint_limits, q, phi_);
+  phi_ += lean_;
+  return clamps || leans_ ? &phi_ : nullptr;
 }
 
 /// The same for a planar arm where nothing is damped. All corrections are along the rows of the first
@@ -193,9 +206,9 @@ JointVector BackwardSearch::hybrid_step(const JointVector& q, const JointVector&
 
 bool BackwardSearch::correct_tip(const StepInput& input, const TrackingIk& ik,
                                  double error_before) {
-  const double error = close_tip(problem_->chain, input.p_WT_desired, problem_->dt, settings_, ik,
+  const double error = close_tip(task_, input.p_WT_desired, problem_->dt, settings_, ik,
                                  error_before, q_, pose_, counters_);
-  return error <= problem_->tolerance;
+  return error <= TipTask::tolerance(*problem_);
 }
 
 bool BackwardSearch::free_together(const Eigen::Vector3d&, const JointBox&, StepOutput*) {

@@ -7,14 +7,17 @@
 #include "bqsa/kinematics/planar_tip.hpp"
 #include "bqsa/method.hpp"
 #include "bqsa/motion_certificate.hpp"
+#include "bqsa/tip_task.hpp"
 
 namespace bqsa {
 
 /// One control tick, numbered as the steps of the reconstructed algorithm:
 ///
-///   1. x_dot = (x_d(t) - tip) / dt, closed over the tip error
-///   2. predictor: theta' = theta + dt hybrid_ik(x_dot, W = I, phi = 0), a first-order step, and
-///      `corrections` that take its second-order error away
+///   1. x_dot = (x_d(t) - tip) / dt, closed over the tip error; with the rows of TipTask where the task has
+///      an orientation
+///   2. predictor: theta' = theta + dt hybrid_ik(x_dot, W = I, phi), a first-order step, and
+///      `corrections` that take its second-order error away; phi = 0, or what sends joints back from their
+///      limits (joint_limit_clamp.hpp), if that is asked for
 ///   3. backward search, i = n .. 1: quadratic category of link i with every obstacle
 ///   4. joints clamping: links that hit are moved out by self-motions
 ///   5. what the variant makes of the clamped configuration
@@ -32,7 +35,8 @@ class BackwardSearch : public ReactiveMethod {
     leans_ = !phi.isZero(0);
   }
 
-  /// Moves q [rad] by the least self-motion until it is in the box, its tip at p_WT [m], and all links
+  /// Moves q [rad] by the least self-motion until it is in the box, its tip at p_WT [m] and
+  /// turned as the problem wants it at that tick, and all links
   /// keep link radius, margin and `distance` [m] from the obstacles of that tick. False, and q as it
   /// was, if that fails.
   bool fit(int tick, const Eigen::Vector3d& p_WT, double distance, const JointBox& box,
@@ -44,7 +48,8 @@ class BackwardSearch : public ReactiveMethod {
   /// From now on the obstacles are where they are at this tick.
   virtual void go_to(int tick) = 0;
 
-  /// From now on links hit what is closer than this [m].
+  /// From now on links hit what is closer than this [m], and links thinner than the thickest, that much
+  /// less.
   virtual void keep(double distance) = 0;
 
   /// Steps 3 and 4: frees all links of q_, changing q_ and pose_, and records the clamps. If that
@@ -87,6 +92,7 @@ class BackwardSearch : public ReactiveMethod {
 
   BqsaSettings settings_;
   const Problem* problem_ = nullptr;
+  TipTask task_;    ///< of this tick
   JointVector q_;   ///< configuration in hand [rad]
   ChainPose pose_;  ///< of q_
 
@@ -97,6 +103,7 @@ class BackwardSearch : public ReactiveMethod {
   Infeasible release_links(const StepInput& input, StepOutput& output);
   void start_at(const JointVector& q);
   bool predict(const StepInput& input);
+  const JointVector* clamping_velocity(const JointVector& q);
   bool predict_in_plane(const StepInput& input);
   bool is_clear(const StepInput& input) const;
   void answer(const StepInput& input, StepOutput& output);
@@ -109,6 +116,7 @@ class BackwardSearch : public ReactiveMethod {
   PlanarTip planar_tip_;   ///< of pose_start_
   TaskVector x_dot_;       ///< [m/s]
   JointVector lean_;       ///< [rad/s]
+  JointVector phi_;        ///< lean_ and what sends joints back from their limits [rad/s]
   bool leans_ = false;     ///< whether it is not zero
   int increments_left_ = 0;
 };

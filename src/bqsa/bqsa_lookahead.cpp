@@ -10,7 +10,7 @@
 namespace bqsa {
 namespace {
 
-constexpr double kUnhurriedStep = 1.0;  // largest joint step without hurry [rad]
+constexpr double kUnhurriedStep = 1.0;  // largest joint step without hurry [rad, m]
 constexpr double kAcross = 0.1;         // sine of the angle at which an axis is across a link
 constexpr int kFirstLead = 4;           // ticks before a dead end at which a branch starts
 constexpr int kPastDeadEnd = 5;         // ticks by which a branch must pass it
@@ -27,6 +27,7 @@ std::vector<Eigen::Vector3d> directions_across(const SerialChain& chain, const C
   }
   Eigen::Vector3d a = along.unitOrthogonal();  // if no axis is across the link
   for (int j = chain.moving_joints(link.end) - 1; j >= 0; --j) {
+    if (chain.is_prismatic(j)) continue;
     const Eigen::Vector3d turning = pose.axis_W.col(j).cross(along);
     if (turning.norm() <= kAcross * along.norm()) continue;
     a = turning.normalized();
@@ -108,6 +109,7 @@ StepInput BqsaLookahead::input_after(const Plan& plan) const {
   return {.tick = tick,
           .t = t,
           .p_WT_desired = problem_->desired_tip(t),
+          .R_WT_desired = problem_->rotation_at(t),
           .q = plan.at(plan.last_tick()).q};
 }
 

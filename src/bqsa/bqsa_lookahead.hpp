@@ -39,7 +39,7 @@ struct LookaheadSettings {
 /// tick that only moves on costs as much as a reactive one, one that plans up to `horizon` times as
 /// much, and one at a dead end up to `branches` times that: times of this method are means, not bounds.
 ///
-/// The path is the problem's; StepInput::p_WT_desired is not looked at. Of configurations moved by 2, the
+/// The path is the problem's; what StepInput says of it is not looked at. Of configurations moved by 2, the
 /// clamps reported are those with which they were first imagined.
 class BqsaLookahead final : public ReactiveMethod {
  public:

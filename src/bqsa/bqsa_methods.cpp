@@ -145,7 +145,8 @@ MethodEntry bqsa_method() {
                            .spatial = true,
                            .link_radius = true,
                            .margin = true,
-                           .moving = true},
+                           .moving = true,
+                           .orientation = true},
           .parameters = releasing_parameters({"last", "first", "never"}),
           .make = make_exact};
 }
@@ -158,7 +159,8 @@ MethodEntry bqsa_lookahead_method() {
                            .spatial = true,
                            .link_radius = true,
                            .margin = true,
-                           .moving = true},
+                           .moving = true,
+                           .orientation = true},
           .parameters = lookahead_parameters(),
           .make = make_lookahead};
 }
@@ -176,7 +178,11 @@ MethodEntry bqsa_projection_method() {
   return {.name = "bqsa_projection",
           .summary = "backward quadratic search in space by projections, as the paper does",
           .source = kSource,
-          .capabilities = {.spatial = true, .link_radius = true, .margin = true, .moving = true},
+          .capabilities = {.spatial = true,
+                           .link_radius = true,
+                           .margin = true,
+                           .moving = true,
+                           .orientation = true},
           .parameters = projection_parameters(),
           .make = make_projection};
 }

@@ -29,13 +29,12 @@ BqsaSettings default_settings(PlanarVariant variant) {
 
 void BqsaPlanar::prepare(const Problem& problem) {
   if (problem.dimension() != 2 || problem.chain.points() != problem.chain.joints() + 1 ||
-      problem.chain.description().convention != DhConvention::kStandard) {
+      !problem.chain.in_plane()) {
     throw std::invalid_argument("planar BQSA needs a planar arm in standard form without a tool");
   }
   BackwardSearch::prepare(problem);
-  obstacles_.assign(problem.obstacles, counters_, problem.link_radius + problem.margin,
-                    neighbours());
-  release_.assign(problem, obstacles_, settings_, counters_);
+  obstacles_.assign(problem, counters_, neighbours());
+  release_.assign(problem, task_, obstacles_, settings_, counters_);
   self_motion_.assign(problem.chain, counters_);
 }
 
@@ -184,7 +183,7 @@ bool BqsaPlanar::find_contact(const ChainPose& pose, int lowest, int highest,
 /// What a pair keeps beyond the distance to keep [m].
 double BqsaPlanar::gap(const ChainPose& pose, const Contact& contact) const {
   return obstacles_.proximity(pose, *contact.link, contact.obstacle).distance -
-         obstacles_.distance();
+         obstacles_.distance(*contact.link);
 }
 
 /// One more increment to one side. True if the links lowest .. anchor are free there.

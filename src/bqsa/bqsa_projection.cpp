@@ -22,8 +22,7 @@ Eigen::Vector2d projected_link(const ChainPose& pose, const Link& link, Coordina
 
 void BqsaProjection::prepare(const Problem& problem) {
   SpatialSearch::prepare(problem);
-  shadows_.assign(problem.obstacles, counters_, problem.link_radius + problem.margin,
-                  neighbours()->index());
+  shadows_.assign(problem, counters_, neighbours()->index());
 }
 
 /// Joints clamping: the branches are searched in step, and the first that leads out wins.

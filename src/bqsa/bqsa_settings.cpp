@@ -25,6 +25,11 @@ std::vector<ParameterDeclaration> bqsa_parameters(const BqsaSettings& defaults) 
        "largest task-velocity residual that damping may cause (Lemma 2's epsilon)"},
       {"rank_threshold", "-", d.ik.rank_threshold, 0, 1e-3,
        "singular values below this part of the largest count as zero"},
+      {"limit_band", "-", d.joint_limits.band, 0, 0.5,
+       "part of a joint's range at either end from which it is sent back; 0: joint limits are not "
+       "avoided"},
+      {"limit_gain", "1/s", d.joint_limits.gain, 0, 1000,
+       "speed at which it is sent back, for each radian or metre into that part"},
   };
 }
 
@@ -39,6 +44,8 @@ void read_bqsa_parameters(const ParameterValues& values, BqsaSettings& settings)
   settings.ik.lambda_max = values.number("lambda_max");
   settings.ik.residual_bound = values.number("residual_bound");
   settings.ik.rank_threshold = values.number("rank_threshold");
+  settings.joint_limits.band = values.number("limit_band");
+  settings.joint_limits.gain = values.number("limit_gain");
 }
 
 }  // namespace bqsa

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bqsa/hybrid_ik.hpp"
+#include "bqsa/joint_limit_clamp.hpp"
 #include "bqsa/parameters.hpp"
 
 namespace bqsa {
@@ -18,6 +19,7 @@ enum class Release {
 
 struct BqsaSettings {
   HybridIkSettings ik;
+  JointLimitClamp joint_limits;
   double increment = 2e-3;    ///< dTheta: clamping increment, where no exit is computed [rad]
   double search_range = 0.6;  ///< d_max: largest way one link is clamped in one tick [rad]
   int max_increments =

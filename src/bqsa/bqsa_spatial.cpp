@@ -15,9 +15,8 @@ constexpr int kMaxTrials = 12;
 
 void BqsaSpatial::prepare(const Problem& problem) {
   SpatialSearch::prepare(problem);
-  obstacles_.assign(problem.obstacles, counters_, problem.link_radius + problem.margin,
-                    neighbours());
-  release_.assign(problem, obstacles_, settings_, counters_);
+  obstacles_.assign(problem, counters_, neighbours());
+  release_.assign(problem, task_, obstacles_, settings_, counters_);
 }
 
 /// Joints clamping: moves the arm along its self-motions until the link is free of all obstacles.

@@ -46,7 +46,7 @@ class BqsaSpatial final : public SpatialSearch {
                       int& increments);
   bool clamping_velocity(const Link& link, int obstacle, JointVector& phi);
   double gap(const Link& link, int obstacle) const {
-    return obstacles_.proximity(pose_, link, obstacle).distance - obstacles_.distance();
+    return obstacles_.proximity(pose_, link, obstacle).distance - obstacles_.distance(link);
   }
   /// How far beyond its exit a link may end [rad].
   double resolution() const { return std::ldexp(settings_.increment, -settings_.settling); }

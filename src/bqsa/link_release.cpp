@@ -32,9 +32,11 @@ JointVector least_motion(int joints, std::span<Contact> contacts) {
 }
 
 template <int Dim>
-void LinkRelease<Dim>::assign(const Problem& problem, const ObstacleField<Dim>& obstacles,
-                              const BqsaSettings& settings, WorkCounters& counters) {
+void LinkRelease<Dim>::assign(const Problem& problem, const TipTask& tip_task,
+                              const ObstacleField<Dim>& obstacles, const BqsaSettings& settings,
+                              WorkCounters& counters) {
   problem_ = &problem;
+  tip_task_ = &tip_task;
   obstacles_ = &obstacles;
   settings_ = &settings;
   counters_ = &counters;
@@ -55,8 +57,8 @@ bool LinkRelease<Dim>::push_apart(const Eigen::Vector3d& p_WT, const JointBox& b
   pushed_count_ = 0;
   iterations_ = 0;
   const auto tip_in_place = [&] {
-    return close_tip(problem_->chain, p_WT, problem_->dt, *settings_, q, pose, *counters_) <=
-           problem_->tolerance;
+    return close_tip(*tip_task_, p_WT, problem_->dt, *settings_, q, pose, *counters_) <=
+           TipTask::tolerance(*problem_);
   };
   if (!tip_in_place()) return false;
   if (box.contains(q) && all_free(pose)) return true;
@@ -88,7 +90,7 @@ template <int Dim>
 bool LinkRelease<Dim>::gather(const ChainPose& pose, const JointBox& box, const JointVector& q) {
   count_ = 0;
   TaskJacobian J_tip, J_start, J_end;
-  problem_->chain.jacobian(pose, problem_->chain.points() - 1, J_tip);
+  tip_task_->jacobian(pose, J_tip);
   ++counters_->jacobians;
   const Eigen::JacobiSVD<TaskJacobian> svd(J_tip, Eigen::ComputeThinU | Eigen::ComputeThinV);
   ++counters_->linear_solves;
@@ -102,7 +104,7 @@ bool LinkRelease<Dim>::gather(const ChainPose& pose, const JointBox& box, const 
     bool have_jacobians = false;
     const auto meet = [&](int j, const typename ObstacleField<Dim>::Proximity& near) {
       const auto& [distance, t, normal] = near;
-      const double missing = obstacles_->distance() - distance;
+      const double missing = obstacles_->distance(link) - distance;
       if (missing >= 0) in_order = false;
       if (!have_jacobians) {
         problem_->chain.jacobian(pose, link.start, J_start);

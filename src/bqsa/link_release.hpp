@@ -9,6 +9,7 @@
 #include "bqsa/joint_box.hpp"
 #include "bqsa/method.hpp"
 #include "bqsa/obstacle_field.hpp"
+#include "bqsa/tip_task.hpp"
 
 namespace bqsa {
 
@@ -45,8 +46,8 @@ JointVector least_motion(int joints, std::span<Contact> contacts);
 template <int Dim>
 class LinkRelease {
  public:
-  /// All must outlive this.
-  void assign(const Problem& problem, const ObstacleField<Dim>& obstacles,
+  /// All must outlive this. The desired orientation, if there is one, is the task's at the time of a call.
+  void assign(const Problem& problem, const TipTask& tip_task, const ObstacleField<Dim>& obstacles,
               const BqsaSettings& settings, WorkCounters& counters);
 
   /// @param p_WT  where the tip has to be [m]
@@ -76,6 +77,7 @@ class LinkRelease {
   void remember_pushed();
 
   const Problem* problem_ = nullptr;
+  const TipTask* tip_task_ = nullptr;
   const ObstacleField<Dim>* obstacles_ = nullptr;
   const BqsaSettings* settings_ = nullptr;
   WorkCounters* counters_ = nullptr;

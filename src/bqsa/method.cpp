@@ -14,6 +14,10 @@ std::string why_not_applicable(const Capabilities& capabilities, const Problem& 
   const bool moving = std::any_of(problem.obstacles.begin(), problem.obstacles.end(),
                                   [](const Obstacle& obstacle) { return obstacle.moves(); });
   if (moving && !capabilities.moving) return "moving obstacles not supported yet";
+  if (problem.chain.has_prismatic_joints() && !capabilities.prismatic)
+    return "prismatic joints not supported yet";
+  if (problem.has_orientation() && !capabilities.orientation)
+    return "orientation tasks not supported yet";
   return {};
 }
 
@@ -55,8 +59,11 @@ void record_clamp(const Clamp& clamp, StepOutput& output) {
 
 Infeasible forbidden_step(const Problem& problem, const JointVector& q_last, const JointVector& q) {
   if (!problem.within_limits(q)) return Infeasible::kJointLimit;
+  const bool by_default =
+      problem.limits.max_velocity.size() == 0 && !problem.chain.has_prismatic_joints();
   for (int j = 0; j < problem.chain.joints(); ++j) {
-    if (!(std::abs(q(j) - q_last(j)) <= problem.max_step(j))) return Infeasible::kStepTooLarge;
+    const double most = by_default ? kDefaultMaxStep : problem.max_step(j);
+    if (!(std::abs(q(j) - q_last(j)) <= most)) return Infeasible::kStepTooLarge;
   }
   return Infeasible::kNot;
 }

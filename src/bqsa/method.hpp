@@ -23,6 +23,8 @@ struct Capabilities {
   bool link_radius = false;  ///< takes problems whose links have a radius
   bool margin = false;       ///< takes problems that ask for a margin
   bool moving = false;       ///< takes problems with moving obstacles
+  bool prismatic = true;     ///< takes arms with prismatic joints, as all do that ask SerialChain
+  bool orientation = false;  ///< takes tasks that prescribe the tip's orientation or its axis
   bool plans = false;        ///< is a PlanningMethod, else a ReactiveMethod
 
   /// Never exceeds joint limits or the largest step of a tick; gives up instead, if need be.
@@ -63,7 +65,9 @@ struct StepInput {
   int tick = 0;                                            ///< 1 .. ticks
   double t = 0;                                            ///< time at the end of the step [s]
   Eigen::Vector3d p_WT_desired = Eigen::Vector3d::Zero();  ///< x_d(t) [m]
-  JointVector q;  ///< joint angles at the start of the step [rad]
+  Eigen::Matrix3d R_WT_desired =
+      Eigen::Matrix3d::Identity();  ///< R_WT(t); task_kind says what of it counts
+  JointVector q;                    ///< joint angles at the start of the step [rad]
 };
 
 struct StepOutput {

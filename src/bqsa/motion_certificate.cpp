@@ -25,6 +25,47 @@ MotionCertificate::PointBounds MotionCertificate::bounds_of(const SerialChain& c
   return bounds;
 }
 
+/// The same where some joints slide: that adds dq to V and nothing to A, and whatever the joints
+/// further out have slid may add to the reach.
+MotionCertificate::PointBounds MotionCertificate::sliding_bounds_of(const SerialChain& chain,
+                                                                    const JointVector& q0,
+                                                                    const JointVector& q1,
+                                                                    int point) {
+  PointBounds bounds{0, 0};
+  double slid = 0;
+  for (int j = chain.moving_joints(point) - 1; j >= 0; --j) {
+    const double change = std::abs(q1(j) - q0(j));
+    if (chain.is_prismatic(j)) {
+      bounds.speed += change;
+      slid += std::max(std::abs(q0(j)), std::abs(q1(j)));
+      continue;
+    }
+    const double radius = chain.reach(j, point) + slid;
+    bounds.acceleration += change * change * radius + 2 * change * bounds.speed;
+    bounds.speed += change * radius;
+  }
+  return bounds;
+}
+
+/// The same for all points: V <= T r + S and A <= T² r + 2 T S with T and S the sums of the changes
+/// of the joints that turn and of those that slide.
+MotionCertificate::PointBounds MotionCertificate::bounds_of_all(const JointVector& q0,
+                                                                const JointVector& q1) const {
+  const SerialChain& chain = problem_->chain;
+  if (!chain.has_prismatic_joints()) {
+    const double turn = (q1 - q0).cwiseAbs().sum();
+    return {turn * reach_, turn * turn * reach_};
+  }
+  double turn = 0, slide = 0;
+  double radius = reach_;
+  for (int j = 0; j < chain.joints(); ++j) {
+    const double change = std::abs(q1(j) - q0(j));
+    (chain.is_prismatic(j) ? slide : turn) += change;
+    if (chain.is_prismatic(j)) radius += std::max(std::abs(q0(j)), std::abs(q1(j)));
+  }
+  return {turn * radius + slide, turn * turn * radius + 2 * turn * slide};
+}
+
 MotionCertificate::Motion MotionCertificate::motion_of(const Ellipsoid& from, const Ellipsoid& to) {
   Motion motion{&from, true, to.center() - from.center(), Eigen::Vector3d::UnitZ(), 0};
   if (to.rotation() != from.rotation()) {
@@ -39,6 +80,7 @@ MotionCertificate::Motion MotionCertificate::motion_of(const Ellipsoid& from, co
 void MotionCertificate::assign(const Problem& problem, WorkCounters& counters) {
   problem_ = &problem;
   clearance_ = problem.link_radius + problem.margin;
+  slimness_ = slimness_of(problem);
   counters_ = &counters;
   neighbours_ = std::make_shared<NeighbourLists>(std::make_shared<ObstacleIndex>(problem.obstacles),
                                                  FreeBy::kSpace, counters);
@@ -73,13 +115,16 @@ MotionCertificate::Result MotionCertificate::certify(int tick, const JointVector
   q0_ = q0;
   dq_ = q1 - q0;
   for (int k = 0; k < chain.points(); ++k) {
-    bounds_[static_cast<std::size_t>(k)] = bounds_of(chain, dq_, k);
+    bounds_[static_cast<std::size_t>(k)] = chain.has_prismatic_joints()
+                                               ? sliding_bounds_of(chain, q0, q1, k)
+                                               : bounds_of(chain, dq_, k);
   }
   pairs_.clear();
   const Part all{0, 1, pose0, pose1};
   for (int i = 0; i < static_cast<int>(chain.links().size()); ++i) {
     const Link& link = chain.links()[static_cast<std::size_t>(i)];
-    neighbours_->visit(passage_of(tick, link, pose0, pose1, bounds_of(link)), [&](int j) {
+    const Passage passage = passage_of(tick, link, pose0, pose1, bounds_of(link), clearance(link));
+    neighbours_->visit(passage, [&](int j) {
       const Pair pair = pair_of(i, j, tick, pose0);
       if (!separated(all, pair)) pairs_.push_back(pair);
     });
@@ -89,13 +134,14 @@ MotionCertificate::Result MotionCertificate::certify(int tick, const JointVector
 
 /// The motion of the link by bounds on its ends' motion.
 Passage MotionCertificate::passage_of(int tick, const Link& link, const ChainPose& pose0,
-                                      const ChainPose& pose1, const PointBounds& bounds) const {
+                                      const ChainPose& pose1, const PointBounds& bounds,
+                                      double clearance) const {
   return {.tick = tick,
           .link = link,
           .from = pose0,
           .to = pose1,
           .sag = bounds.acceleration / 8,
-          .distance = clearance_ + kShortestPart * bounds.speed +
+          .distance = clearance + kShortestPart * bounds.speed +
                       kShortestPart * kShortestPart * bounds.acceleration};
 }
 
@@ -106,15 +152,13 @@ MotionCertificate::PointBounds MotionCertificate::bounds_of(const Link& link) co
   return {std::max(start.speed, end.speed), std::max(start.acceleration, end.acceleration)};
 }
 
-/// By bounds that hold for all points.
 bool MotionCertificate::is_clear(int tick, const JointVector& q0, const ChainPose& pose0,
                                  const JointVector& q1, const ChainPose& pose1,
                                  double distance) const {
   const std::span<const Link> links = problem_->chain.links();
   if (links.empty()) return true;
-  const double turn = (q1 - q0).cwiseAbs().sum();
-  const PointBounds bounds{turn * reach_, turn * turn * reach_};
-  Passage passage = passage_of(tick, links.front(), pose0, pose1, bounds);
+  Passage passage =
+      passage_of(tick, links.front(), pose0, pose1, bounds_of_all(q0, q1), clearance_);
   passage.distance = std::max(passage.distance, distance);
   return neighbours_->all_clear(links, passage);
 }
@@ -137,15 +181,17 @@ MotionCertificate::Pair MotionCertificate::pair_of(int link, int obstacle, int t
 
 double MotionCertificate::clearance_of(const Link& link, const Ellipsoid& shape,
                                        const ChainPose& start) const {
-  if (!(problem_->margin > 0)) return clearance_;
+  const double clearance = this->clearance(link);
+  if (!(problem_->margin > 0)) return clearance;
   constexpr double kSlack = 1e-3;
   const Eigen::Vector3d p1 = start.p_WO.col(link.start);
   const Eigen::Vector3d p2 = start.p_WO.col(link.end);
   ++counters_->quadratics;
-  if (separation<3>(shape, p1, p2) > clearance_) return clearance_;
+  if (separation<3>(shape, p1, p2) > clearance) return clearance;
   ++counters_->distance_queries;
   const double distance = nearest_plane<3>(shape, p1, p2).distance;
-  return std::clamp((1 - kSlack) * distance, problem_->link_radius, clearance_);
+  const double radius = problem_->link_radius - slimness_[static_cast<std::size_t>(link.end)];
+  return std::clamp((1 - kSlack) * distance, radius, clearance);
 }
 
 /// Certifies the pairs from first_open on, which were found open in this part.

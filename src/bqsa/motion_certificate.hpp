@@ -9,6 +9,7 @@
 
 #include "bqsa/neighbourhood/neighbour_lists.hpp"
 #include "bqsa/problem.hpp"
+#include "bqsa/slimness.hpp"
 #include "bqsa/work_counters.hpp"
 
 namespace bqsa {
@@ -69,8 +70,8 @@ class MotionCertificate {
   Result certify(int tick, const JointVector& q0, const ChainPose& pose0, const JointVector& q1,
                  const ChainPose& pose1);
 
-  /// Whether lists that were made before prove the motion, and that all links keep `distance` [m] from
-  /// all obstacles where it ends. Asks for nothing: false says nothing.
+  /// Whether lists that were made before prove the motion, and that all links, all as thick as the
+  /// thickest, keep `distance` [m] from all obstacles where it ends. Asks for nothing: false says nothing.
   bool is_clear(int tick, const JointVector& q0, const ChainPose& pose0, const JointVector& q1,
                 const ChainPose& pose1, double distance) const;
 
@@ -117,18 +118,25 @@ class MotionCertificate {
 
   static Motion motion_of(const Ellipsoid& from, const Ellipsoid& to);
   static PointBounds bounds_of(const SerialChain& chain, const JointVector& dq, int point);
+  static PointBounds sliding_bounds_of(const SerialChain& chain, const JointVector& q0,
+                                       const JointVector& q1, int point);
 
+  PointBounds bounds_of_all(const JointVector& q0, const JointVector& q1) const;
   PointBounds bounds_of(const Link& link) const;
   Passage passage_of(int tick, const Link& link, const ChainPose& pose0, const ChainPose& pose1,
-                     const PointBounds& bounds) const;
+                     const PointBounds& bounds, double clearance) const;
   Pair pair_of(int link, int obstacle, int tick, const ChainPose& start);
+  double clearance(const Link& link) const {
+    return clearance_ - slimness_[static_cast<std::size_t>(link.end)];
+  }
   double clearance_of(const Link& link, const Ellipsoid& shape, const ChainPose& start) const;
   Result halve(const Part& part, std::size_t first_open, int halvings);
   bool separated(const Part& part, const Pair& pair) const;
 
   const Problem* problem_ = nullptr;
-  double clearance_ = 0;  ///< link radius and margin [m]
-  double reach_ = 0;      ///< of any point from any axis, at most [m]
+  double clearance_ = 0;  ///< link radius, of the thickest, and margin [m]
+  Slimness slimness_{};
+  double reach_ = 0;  ///< of any point from any axis, prismatic joints at 0, at most [m]
   std::shared_ptr<NeighbourLists> neighbours_;
   std::vector<Pair> pairs_;  ///< a stack: the pairs still open on each level of halving
   JointVector q0_, dq_;

@@ -13,6 +13,7 @@ void ObstacleField<Dim>::assign(const std::vector<Obstacle>& obstacles, WorkCoun
   counters_ = &counters;
   tick_ = 0;
   distance_ = 0;
+  slimness_ = {};
   tight_ = clearance > 0;
   if constexpr (Dim == 2) sections_.assign(obstacles, planar_section);
   if (neighbours == nullptr) {
@@ -23,21 +24,30 @@ void ObstacleField<Dim>::assign(const std::vector<Obstacle>& obstacles, WorkCoun
 }
 
 template <int Dim>
-bool ObstacleField<Dim>::hit(const Vector& p1, const Vector& p2, int obstacle) const {
+void ObstacleField<Dim>::assign(const Problem& problem, WorkCounters& counters,
+                                std::shared_ptr<NeighbourLists> neighbours) {
+  assign(problem.obstacles, counters, problem.link_radius + problem.margin, std::move(neighbours));
+  slimness_ = slimness_of(problem);
+}
+
+template <int Dim>
+bool ObstacleField<Dim>::hit(const Vector& p1, const Vector& p2, double distance,
+                             int obstacle) const {
   ++counters_->quadratics;
   const double bound = separation((*this)[obstacle], p1, p2);
-  if (bound > distance_) return false;
+  if (bound > distance) return false;
   if (!tight_ || bound <= 0) return true;
   ++counters_->distance_queries;
-  return nearest_plane<Dim>((*this)[obstacle], p1, p2, distance_).distance <= distance_;
+  return nearest_plane<Dim>((*this)[obstacle], p1, p2, distance).distance <= distance;
 }
 
 template <int Dim>
 int ObstacleField<Dim>::first_hit(const ChainPose& pose, const Link& link, int from) const {
   const Vector p1 = pose.p_WO.col(link.start).template head<Dim>();
   const Vector p2 = pose.p_WO.col(link.end).template head<Dim>();
-  return neighbours_->find({tick_, link, pose, pose, 0, distance_}, from,
-                           [&](int obstacle) { return hit(p1, p2, obstacle); });
+  const double kept = distance(link);
+  return neighbours_->find({tick_, link, pose, pose, 0, kept}, from,
+                           [&](int obstacle) { return hit(p1, p2, kept, obstacle); });
 }
 
 template <int Dim>
@@ -56,7 +66,7 @@ typename ObstacleField<Dim>::Proximity ObstacleField<Dim>::proximity(const Chain
   const double steepness = normal.norm();
   if (!(steepness > 0)) return {-shape.semi_axes().minCoeff(), t, Vector::Zero()};
   const double distance = u.norm() * (u.norm() - 1) / steepness;
-  if (!tight_ || distance <= 0 || distance > distance_) {
+  if (!tight_ || distance <= 0 || distance > this->distance(link)) {
     return {distance, t, normal / steepness};
   }
   ++counters_->distance_queries;

@@ -8,6 +8,7 @@
 #include "bqsa/geometry/separation.hpp"
 #include "bqsa/neighbourhood/neighbour_lists.hpp"
 #include "bqsa/shapes_over_time.hpp"
+#include "bqsa/slimness.hpp"
 
 namespace bqsa {
 
@@ -31,13 +32,22 @@ class ObstacleField {
   void assign(const std::vector<Obstacle>&&, WorkCounters&, double = 0,
               std::shared_ptr<NeighbourLists> = nullptr) = delete;
 
+  /// The same for the obstacles, the link radii and the margin of a problem: a link keeps as much less
+  /// than the distance to keep as it is thinner than the thickest.
+  void assign(const Problem& problem, WorkCounters& counters,
+              std::shared_ptr<NeighbourLists> neighbours = nullptr);
+
   /// From now on the obstacles are where they are at this tick.
   void go_to(int tick) { tick_ = tick; }
 
-  /// From now on a link that is not proven to be further away than this [m] counts as hitting.
+  /// From now on a link, the thickest there is, that is not proven to be further away than this [m]
+  /// counts as hitting.
   void keep(double distance) { distance_ = distance; }
 
-  double distance() const { return distance_; }
+  /// What the link has to keep [m].
+  double distance(const Link& link) const {
+    return distance_ - slimness_[static_cast<std::size_t>(link.end)];
+  }
 
   const EllipsoidN<Dim>& operator[](int obstacle) const {
     if constexpr (Dim == 2)
@@ -64,22 +74,24 @@ class ObstacleField {
   template <typename Visit>
   void visit_near(const ChainPose& pose, const Link& link, double beyond,
                   const Visit& visit) const {
-    neighbours_->visit({tick_, link, pose, pose, 0, distance_ + beyond}, [&](int obstacle) {
+    const double kept = distance(link);
+    neighbours_->visit({tick_, link, pose, pose, 0, kept + beyond}, [&](int obstacle) {
       const Proximity near = proximity(pose, link, obstacle);
-      if (!(distance_ - near.distance < -beyond)) visit(obstacle, near);
+      if (!(kept - near.distance < -beyond)) visit(obstacle, near);
     });
   }
 
  private:
   using Vector = Eigen::Matrix<double, Dim, 1>;
 
-  bool hit(const Vector& p1, const Vector& p2, int obstacle) const;
+  bool hit(const Vector& p1, const Vector& p2, double distance, int obstacle) const;
 
   const std::vector<Obstacle>* obstacles_ = nullptr;
   ShapesOverTime<Ellipse> sections_;  ///< of planar fields
   std::shared_ptr<NeighbourLists> neighbours_;
   int tick_ = 0;
   double distance_ = 0;
+  Slimness slimness_{};
   bool tight_ = false;  ///< whether `nearest_plane` is asked
   WorkCounters* counters_ = nullptr;
 };

@@ -30,6 +30,7 @@ void ShadowField::assign(const std::vector<Obstacle>& obstacles, WorkCounters& c
   tight_ = clearance > 0;
   tick_ = 0;
   distance_ = 0;
+  slimness_ = {};
   const auto shadows_of = [](const Ellipsoid& shape) -> Shadows {
     return {shadow_on(CoordinatePlane::kXy, shape), shadow_on(CoordinatePlane::kYz, shape),
             shadow_on(CoordinatePlane::kZx, shape)};
@@ -39,14 +40,20 @@ void ShadowField::assign(const std::vector<Obstacle>& obstacles, WorkCounters& c
   neighbours_ = std::make_unique<NeighbourLists>(std::move(index), FreeBy::kShadows, counters);
 }
 
-bool ShadowField::hit(const Shadows& shadows, const Eigen::Vector3d& p1,
-                      const Eigen::Vector3d& p2) const {
+void ShadowField::assign(const Problem& problem, WorkCounters& counters,
+                         std::shared_ptr<const ObstacleIndex> index) {
+  assign(problem.obstacles, counters, problem.link_radius + problem.margin, std::move(index));
+  slimness_ = slimness_of(problem);
+}
+
+bool ShadowField::hit(const Shadows& shadows, const Eigen::Vector3d& p1, const Eigen::Vector3d& p2,
+                      double distance) const {
   std::array<double, kCoordinatePlanes.size()> bounds;
   for (std::size_t k = 0; k < bounds.size(); ++k) {
     const CoordinatePlane plane = kCoordinatePlanes[k];
     ++counters_->quadratics;
     bounds[k] = separation<2>(shadows[k], projected(p1, plane), projected(p2, plane));
-    if (bounds[k] > distance_) return false;
+    if (bounds[k] > distance) return false;
   }
   if (!tight_) return true;
   for (std::size_t k = 0; k < bounds.size(); ++k) {
@@ -54,8 +61,8 @@ bool ShadowField::hit(const Shadows& shadows, const Eigen::Vector3d& p1,
     const CoordinatePlane plane = kCoordinatePlanes[k];
     ++counters_->distance_queries;
     const NearestPlane<2> nearest =
-        nearest_plane<2>(shadows[k], projected(p1, plane), projected(p2, plane), distance_);
-    if (nearest.distance > distance_) return false;
+        nearest_plane<2>(shadows[k], projected(p1, plane), projected(p2, plane), distance);
+    if (nearest.distance > distance) return false;
   }
   return true;
 }
@@ -63,8 +70,10 @@ bool ShadowField::hit(const Shadows& shadows, const Eigen::Vector3d& p1,
 int ShadowField::first_hit(const ChainPose& pose, const Link& link, int from) const {
   const Eigen::Vector3d p1 = pose.p_WO.col(link.start);
   const Eigen::Vector3d p2 = pose.p_WO.col(link.end);
-  return neighbours_->find({tick_, link, pose, pose, 0, distance_}, from,
-                           [&](int obstacle) { return hit(shadows_.at(obstacle, tick_), p1, p2); });
+  const double kept = distance_ - slimness_[static_cast<std::size_t>(link.end)];
+  return neighbours_->find({tick_, link, pose, pose, 0, kept}, from, [&](int obstacle) {
+    return hit(shadows_.at(obstacle, tick_), p1, p2, kept);
+  });
 }
 
 }  // namespace bqsa

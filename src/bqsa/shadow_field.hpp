@@ -8,6 +8,7 @@
 
 #include "bqsa/neighbourhood/neighbour_lists.hpp"
 #include "bqsa/shapes_over_time.hpp"
+#include "bqsa/slimness.hpp"
 
 namespace bqsa {
 
@@ -40,10 +41,16 @@ class ShadowField {
   void assign(const std::vector<Obstacle>&&, WorkCounters&, double = 0,
               std::shared_ptr<const ObstacleIndex> = nullptr) = delete;
 
+  /// The same for the obstacles, the link radii and the margin of a problem: a link keeps as much less
+  /// than the distance to keep as it is thinner than the thickest.
+  void assign(const Problem& problem, WorkCounters& counters,
+              std::shared_ptr<const ObstacleIndex> index = nullptr);
+
   /// From now on the obstacles are where they are at this tick.
   void go_to(int tick) { tick_ = tick; }
 
-  /// From now on shadows that are not proven to be further apart than this [m] count as hitting.
+  /// From now on shadows that are not proven to be further apart than this [m], that of the thickest
+  /// link, count as hitting.
   void keep(double distance) { distance_ = distance; }
 
   /// The first obstacle, counted from `from`, that the link hits; -1 if none. The planes are asked
@@ -53,12 +60,14 @@ class ShadowField {
  private:
   using Shadows = std::array<Ellipse, kCoordinatePlanes.size()>;
 
-  bool hit(const Shadows& shadows, const Eigen::Vector3d& p1, const Eigen::Vector3d& p2) const;
+  bool hit(const Shadows& shadows, const Eigen::Vector3d& p1, const Eigen::Vector3d& p2,
+           double distance) const;
 
   ShapesOverTime<Shadows> shadows_;
   std::unique_ptr<NeighbourLists> neighbours_;
   int tick_ = 0;
   double distance_ = 0;
+  Slimness slimness_{};
   bool tight_ = false;  ///< whether `nearest_plane` is asked
   WorkCounters* counters_ = nullptr;
 };

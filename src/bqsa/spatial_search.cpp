@@ -41,8 +41,7 @@ Infeasible SpatialSearch::free_links(const StepInput& input, StepOutput& output)
 }
 
 bool SpatialSearch::self_motion(const JointVector& direction, JointVector& phi) {
-  const SerialChain& chain = problem_->chain;
-  chain.jacobian(pose_, chain.points() - 1, J_tip_);
+  task_.jacobian(pose_, J_tip_);
   ++counters_.jacobians;
   ik_.assign(J_tip_, settings_.ik);
   ++counters_.linear_solves;

@@ -17,12 +17,12 @@ namespace bqsa::harness {
 namespace {
 
 constexpr double kFullReach = 1;      ///< below it the singular threshold shrinks with the arm [m]
-constexpr double kUnhurriedStep = 1;  ///< of a joint in one tick [rad]
+constexpr double kUnhurriedStep = 1;  ///< of a joint in one tick [rad, m]
 constexpr int kPostures = 2000;
 constexpr std::uint64_t kSeed = 2016;
 
 constexpr double kUniform = std::numeric_limits<double>::infinity();
-constexpr std::array kPerturbations{0.1, 0.3, 1.0, kUniform};  ///< of a joint [rad]
+constexpr std::array kPerturbations{0.1, 0.3, 1.0, kUniform};  ///< of a joint [rad, m]
 
 bool next_to_singular(const Problem& problem, const JointVector& q) {
   const SerialChain& chain = problem.chain;
@@ -30,7 +30,7 @@ bool next_to_singular(const Problem& problem, const JointVector& q) {
   ChainPose pose;
   TaskJacobian J;
   chain.forward(q, pose);
-  chain.jacobian(pose, tip, J);
+  TipTask(problem).jacobian(pose, J);
   const double smallest = Eigen::JacobiSVD<TaskJacobian>(J).singularValues().minCoeff();
   const double scale = std::min(chain.reach(0, tip) / kFullReach, 1.0);
   return !(smallest >= scale * BqsaSettings{}.ik.singular_threshold);
@@ -38,7 +38,11 @@ bool next_to_singular(const Problem& problem, const JointVector& q) {
 
 StepInput input_of(const Problem& problem, int tick, const JointVector& q) {
   const double t = problem.time(tick);
-  return {.tick = tick, .t = t, .p_WT_desired = problem.desired_tip(t), .q = q};
+  return {.tick = tick,
+          .t = t,
+          .p_WT_desired = problem.desired_tip(t),
+          .R_WT_desired = problem.rotation_at(t),
+          .q = q};
 }
 
 bool way_exists(const Problem& problem, const StepInput& input) {
@@ -76,8 +80,13 @@ JointBox box_of(const Problem& problem, const JointVector& q, double perturbatio
   }
   const JointVector& lower = problem.limits.lower;
   const JointVector& upper = problem.limits.upper;
-  return {(q.array() - perturbation).max(lower.array()).min(upper.array()),
-          (q.array() + perturbation).min(upper.array()).max(lower.array())};
+  JointBox box{(q.array() - perturbation).max(lower.array()).min(upper.array()),
+               (q.array() + perturbation).min(upper.array()).max(lower.array())};
+  for (Eigen::Index j = 0; j < q.size(); ++j) {  // joints without limits
+    if (!std::isfinite(box.lower(j))) box.lower(j) = q(j) - std::numbers::pi;
+    if (!std::isfinite(box.upper(j))) box.upper(j) = q(j) + std::numbers::pi;
+  }
+  return box;
 }
 
 /// Largest joint difference to the nearest free one of the random postures; none if none is free.
@@ -85,10 +94,9 @@ template <int Dim>
 std::optional<double> nearest_free(const Problem& problem, const StepInput& input) {
   WorkCounters uncounted;
   ObstacleField<Dim> obstacles;
-  const double clearance = problem.link_radius + problem.margin;
-  obstacles.assign(problem.obstacles, uncounted, clearance);
+  obstacles.assign(problem, uncounted);
   obstacles.go_to(input.tick);
-  obstacles.keep(clearance);
+  obstacles.keep(problem.link_radius + problem.margin);
 
   const SerialChain& chain = problem.chain;
   const auto free = [&](const ChainPose& pose) {
@@ -98,6 +106,8 @@ std::optional<double> nearest_free(const Problem& problem, const StepInput& inpu
   BqsaSettings settings;
   settings.corrections = 30;
   settings.tip_tolerance = 1e-6;
+  TipTask task(problem);
+  task.turn_to(input.R_WT_desired);
   RandomStream random{kSeed};
   std::optional<double> nearest;
   ChainPose pose;
@@ -107,8 +117,9 @@ std::optional<double> nearest_free(const Problem& problem, const StepInput& inpu
     for (int j = 0; j < chain.joints(); ++j) q(j) = random.uniform(box.lower(j), box.upper(j));
     chain.forward(q, pose);
     const double error =
-        close_tip(chain, input.p_WT_desired, problem.dt, settings, q, pose, uncounted);
-    if (!(error <= problem.tolerance) || !problem.within_limits(q) || !free(pose)) continue;
+        close_tip(task, input.p_WT_desired, problem.dt, settings, q, pose, uncounted);
+    if (!(error <= TipTask::tolerance(problem)) || !problem.within_limits(q) || !free(pose))
+      continue;
     const double difference = (q - input.q).cwiseAbs().maxCoeff();
     if (!nearest || difference < *nearest) nearest = difference;
   }

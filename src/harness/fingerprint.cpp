@@ -42,7 +42,10 @@ void add_chain(const SerialChain& chain, Hash& hash) {
   for (const DhRow& row : description.rows) {
     hash.add(row.a).add(row.alpha).add(row.d).add(row.offset);
   }
-  hash.add(description.R_WB).add(description.p_WB).add(description.p_LT);
+  for (const JointPlacement& placement : description.placements) {
+    hash.add(placement.R_PJ).add(placement.p_PJ).add(static_cast<int>(placement.type));
+  }
+  hash.add(description.R_WB).add(description.p_WB).add(description.p_LT).add(description.R_LT);
   hash.add(chain.joints()).add(chain.points());
   for (const Link& link : chain.links()) hash.add(link.number).add(link.start).add(link.end);
   for (int j = 0; j < chain.joints(); ++j) {
@@ -65,9 +68,15 @@ std::uint64_t fingerprint(const Problem& problem) {
   for (int tick = 0; tick <= problem.ticks; ++tick) {
     hash.add(problem.desired_tip(problem.time(tick)));
   }
+  hash.add(static_cast<int>(problem.task_kind)).add(problem.orientation_tolerance);
+  for (int tick = 0; problem.has_orientation() && tick <= problem.ticks; ++tick) {
+    hash.add(problem.rotation_at(problem.time(tick)));
+  }
   hash.add(problem.start);
   hash.add(problem.limits.lower).add(problem.limits.upper).add(problem.limits.max_velocity);
   hash.add(problem.link_radius).add(problem.margin).add(problem.tolerance);
+  hash.add(problem.link_radii.size());
+  for (const double radius : problem.link_radii) hash.add(radius);
   return hash.value();
 }
 

@@ -155,6 +155,7 @@ void transfer(Archive& archive, RunOutcome& outcome) {
   archive.number(outcome.unclaimed_ticks);
   archive.number(outcome.guard_fired);
   transfer(archive, outcome.clamped_pairs);
+  archive.number(outcome.clamp_starts);
   archive.number(outcome.increments_total);
   archive.number(outcome.increments_max);
   transfer(archive, outcome.increments);

@@ -50,7 +50,7 @@ bool is_hidden(double other_threads_s, double all_threads_s) {
 
 bool same(const StepInput& a, const StepInput& b) {
   return a.tick == b.tick && a.t == b.t && a.p_WT_desired == b.p_WT_desired &&
-         a.q.size() == b.q.size() && a.q == b.q;
+         a.R_WT_desired == b.R_WT_desired && a.q.size() == b.q.size() && a.q == b.q;
 }
 
 constexpr int kMostIncrements = 10'000'000;  // of one clamp; those of a tick can be added up
@@ -110,6 +110,7 @@ void follow(ReactiveMethod& method, const Problem& problem, JointSensors& sensor
     input.tick = tick;
     input.t = problem.time(tick);
     input.p_WT_desired = problem.desired_tip(input.t);
+    input.R_WT_desired = problem.rotation_at(input.t);
     input.q = sensors.reading(trajectory.q);
     given = input;
     output = {};

@@ -93,8 +93,9 @@ struct RunOutcome {
   int unclaimed_ticks = 0;
   int guard_fired = 0;                     ///< ticks in which the paper variant fell back
   std::vector<ClampedPair> clamped_pairs;  ///< by link, then obstacle
-  std::int64_t increments_total = 0;       ///< clamping increments of all ticks
-  int increments_max = 0;                  ///< of one clamp
+  int clamp_starts = 0;  ///< times that a pair was cleared that had not been in the tick before
+  std::int64_t increments_total = 0;  ///< clamping increments of all ticks
+  int increments_max = 0;             ///< of one clamp
   TickIncrements increments;
 
   WorkCounters counters;

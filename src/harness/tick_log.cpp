@@ -38,6 +38,7 @@ void TickLog::add_clamps(const StepOutput& output, int tick) {
 
 void TickLog::summarize(RunOutcome& outcome) const {
   outcome.clamped_pairs = tally_.pairs();
+  outcome.clamp_starts = tally_.starts();
   outcome.increments_total = increments_total_;
   outcome.increments_max = increments_max_;
   summarize(outcome.times);

@@ -19,9 +19,14 @@ class PairTally {
   void add(const Clamp& clamp, int tick) {
     Cell& cell = cells_[static_cast<std::size_t>(clamp.link) * obstacles_ +
                         static_cast<std::size_t>(clamp.obstacle)];
-    if (cell.last_tick != tick) ++cell.ticks;
+    if (cell.last_tick == tick) return;
+    if (cell.ticks == 0 || cell.last_tick != tick - 1) ++starts_;
+    ++cell.ticks;
     cell.last_tick = tick;
   }
+
+  /// Times that a pair was cleared that had not been in the tick before.
+  int starts() const { return starts_; }
 
   std::vector<ClampedPair> pairs() const {
     std::vector<ClampedPair> list;
@@ -40,6 +45,7 @@ class PairTally {
   };
   std::size_t obstacles_;
   std::vector<Cell> cells_;
+  int starts_ = 0;
 };
 
 /// Step times, increments and pairs cleared; storage for all ticks is taken at once.

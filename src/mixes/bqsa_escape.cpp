@@ -57,8 +57,8 @@ class BqsaEscape final : public ReactiveMethod {
  private:
   /// As much of the law's self-motion as the joints' limits leave room for.
   JointVector escape_velocity(const StepInput& input) {
-    const JointVector& tracking = surroundings_.track(input.p_WT_desired);
-    self_motions_.assign(surroundings_.tip_jacobian());
+    const JointVector& tracking = surroundings_.track(input);
+    self_motions_.assign(surroundings_.task_jacobian());
     JointVector velocity = upright_;
     for (const Escape& escape : surroundings_.escapes()) {
       velocity +=
@@ -92,7 +92,8 @@ MethodEntry bqsa_escape_method() {
                            .spatial = true,
                            .link_radius = true,
                            .margin = true,
-                           .moving = true},
+                           .moving = true,
+                           .orientation = true},
           .parameters = declared,
           .make = [](const ParameterValues& values) -> std::unique_ptr<Method> {
             AvoidanceSettings settings = baselines::read_avoidance(values, kDefaults);

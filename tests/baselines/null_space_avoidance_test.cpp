@@ -42,6 +42,7 @@ Problem one_near_link(Generator& generator, int trial) {
     problem.obstacles = {problem.obstacles[0]};
     problem.obstacles[0].motion.clear();
     problem.link_radius = 0;
+    problem.link_radii.clear();
     ExactDistanceSearch search;
     WorkCounters work;
     search.assign(problem, 0, work);

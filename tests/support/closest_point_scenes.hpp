@@ -8,7 +8,8 @@
 namespace bqsa::test_support {
 
 /// A planar or spatial arm of seven joints among 1 to 8 ellipsoids of 5 to 40 cm, on the move every
-/// third time, without path; the links have a radius every second time.
+/// third time, without path; the links have a radius every second time, and every fourth time
+/// not all the same.
 inline Problem random_closest_point_scene(Generator& generator, int trial) {
   const bool planar = trial % 2 == 0;
   Problem problem{.name = "scene",
@@ -17,6 +18,9 @@ inline Problem random_closest_point_scene(Generator& generator, int trial) {
                   .dt = 0.02};
   problem.start = random_vector<7>(generator, 1.5);
   problem.link_radius = trial / 2 % 2 == 0 ? 0 : 0.02;
+  for (std::size_t i = 0; trial % 8 > 5 && i < problem.chain.links().size(); ++i) {
+    problem.link_radii.push_back(i % 3 == 0 ? 0.02 : 0.005 * static_cast<double>(i % 3));
+  }
   const int count = 1 + trial % 8;
   for (int j = 0; j < count; ++j) {
     Ellipsoid shape = random_ellipsoid<3>(generator, 0.05, 0.4, 1.5);

@@ -55,6 +55,7 @@ inline Problem scaled(Problem problem, double scale) {
     return scale * tip(t);
   };
   problem.link_radius *= scale;
+  for (double& radius : problem.link_radii) radius *= scale;
   problem.margin *= scale;
   problem.tolerance *= scale;
   return problem;

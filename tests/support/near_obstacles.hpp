@@ -28,6 +28,7 @@ inline Problem near_obstacles(Generator& generator, int trial, double reach) {
   for (;;) {
     Problem problem = random_closest_point_scene(generator, trial);
     problem.link_radius = 0;
+    problem.link_radii.clear();
     for (Obstacle& obstacle : problem.obstacles) obstacle.motion.clear();
     int near = 0;
     double least = 1;

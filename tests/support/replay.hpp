@@ -37,6 +37,7 @@ inline Replay replay(ReactiveMethod& method, const Problem& problem) {
   for (input.tick = 1; input.tick <= problem.ticks; ++input.tick) {
     input.t = problem.time(input.tick);
     input.p_WT_desired = problem.desired_tip(input.t);
+    input.R_WT_desired = problem.rotation_at(input.t);
     input.q = result.q.back();
     StepOutput& output = result.last;
     method.step(input, output);
@@ -56,11 +57,12 @@ inline Replay replay(ReactiveMethod& method, const Problem& problem) {
   return result;
 }
 
-/// Link-obstacle pairs that come closer than `clearance` [m] (0: that meet) in a row or in one of
-/// `between` even samples of the motion between two rows. Row k is that of tick k.
+/// Link-obstacle pairs that come closer than the link's own of `clearances` [m], one of each of
+/// SerialChain::links (0: that meet), in a row or in one of `between` even samples of the motion
+/// between two rows. Row k is that of tick k.
 inline std::set<LinkAndObstacle> sampled_hits(const Problem& problem,
                                               const std::vector<JointVector>& rows, int between,
-                                              double clearance = 0) {
+                                              const std::vector<double>& clearances) {
   std::set<LinkAndObstacle> hits;
   ChainPose pose;
   for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -68,14 +70,15 @@ inline std::set<LinkAndObstacle> sampled_hits(const Problem& problem,
     for (int sample = 0; sample <= between; ++sample) {
       const double s = static_cast<double>(sample) / (between + 1);
       problem.chain.forward(rows[k] + s * (rows[next] - rows[k]), pose);
-      for (const Link& link : problem.chain.links()) {
+      for (std::size_t i = 0; i < clearances.size(); ++i) {
+        const Link& link = problem.chain.links()[i];
         for (std::size_t j = 0; j < problem.obstacles.size(); ++j) {
           const Ellipsoid shape = shape_at(problem.obstacles[j], static_cast<double>(k) + s);
           const DistanceOracle oracle(pose.p_WO.col(link.start), pose.p_WO.col(link.end), shape);
           const auto least_norm = static_cast<double>(oracle.least_norm());
-          const bool surely_clear = (least_norm - 1) * shape.semi_axes().minCoeff() > clearance;
+          const bool surely_clear = (least_norm - 1) * shape.semi_axes().minCoeff() > clearances[i];
           if (surely_clear) continue;
-          if (least_norm <= 1 || static_cast<double>(oracle.distance()) < clearance) {
+          if (least_norm <= 1 || static_cast<double>(oracle.distance()) < clearances[i]) {
             hits.insert({link.number, static_cast<int>(j)});
           }
         }
@@ -83,6 +86,14 @@ inline std::set<LinkAndObstacle> sampled_hits(const Problem& problem,
     }
   }
   return hits;
+}
+
+/// The same with one clearance [m] for all links.
+inline std::set<LinkAndObstacle> sampled_hits(const Problem& problem,
+                                              const std::vector<JointVector>& rows, int between,
+                                              double clearance = 0) {
+  return sampled_hits(problem, rows, between,
+                      std::vector<double>(problem.chain.links().size(), clearance));
 }
 
 }  // namespace bqsa::test_support

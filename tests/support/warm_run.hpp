@@ -27,6 +27,7 @@ inline WarmRun warm_run(ReactiveMethod& method, const Problem& problem) {
   for (input.tick = 1; input.tick <= problem.ticks; ++input.tick) {
     input.t = problem.time(input.tick);
     input.p_WT_desired = problem.desired_tip(input.t);
+    input.R_WT_desired = problem.rotation_at(input.t);
     method.step(input, output);
     input.q = output.q;
     run.free += output.state == TickState::kFree;

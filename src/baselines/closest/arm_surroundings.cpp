@@ -32,6 +32,7 @@ bool read_all_pairs(const ParameterValues& values) { return values.choice("point
 void ArmSurroundings::assign(const Problem& problem, const SurroundingsSettings& settings,
                              WorkCounters& counters) {
   problem_ = &problem;
+  task_ = TipTask(problem);
   settings_ = settings;
   counters_ = &counters;
   no_weights_ = JointVector::Ones(problem.chain.joints());
@@ -49,14 +50,23 @@ void ArmSurroundings::look(int tick, const JointVector& q) {
   problem_->chain.forward(q, pose_);
   ++counters_->kinematics;
   J_known_.fill(false);
+  J_task_known_ = false;
   search_->search(pose_, settings_.influence + problem_->link_radius + problem_->margin, points_);
+  std::erase_if(points_, [this](const ClosestPoint& point) {  // of links that are thinner
+    return point.distance >= settings_.influence + radius_of(point) + problem_->margin;
+  });
   if (!settings_.all_pairs) keep_closest_of_each_obstacle();
   escapes_.clear();
   for (const ClosestPoint& point : points_) escapes_.push_back(escape(point, tick));
 }
 
-const JointVector& ArmSurroundings::track(const Eigen::Vector3d& p_WT_desired) {
-  solve_hybrid_ik(tip_jacobian(), tip_velocity(p_WT_desired), no_weights_, no_clamping_, {}, ik_);
+TaskVector ArmSurroundings::task_velocity(const StepInput& input) {
+  task_.turn_to(input.R_WT_desired);
+  return task_.error(pose_, input.p_WT_desired) / problem_->dt;
+}
+
+const JointVector& ArmSurroundings::track(const StepInput& input) {
+  solve_hybrid_ik(task_jacobian(), task_velocity(input), no_weights_, no_clamping_, {}, ik_);
   ++counters_->linear_solves;
   return ik_.q_dot;
 }
@@ -71,7 +81,10 @@ void ArmSurroundings::keep_closest_of_each_obstacle() {
   std::size_t kept = 0;
   for (const ClosestPoint& point : points_) {
     if (kept > 0 && points_[kept - 1].obstacle == point.obstacle) {
-      if (point.distance < points_[kept - 1].distance) points_[kept - 1] = point;
+      if (point.distance - radius_of(point) <
+          points_[kept - 1].distance - radius_of(points_[kept - 1])) {
+        points_[kept - 1] = point;
+      }
     } else {
       points_[kept++] = point;
     }
@@ -85,7 +98,7 @@ Escape ArmSurroundings::escape(const ClosestPoint& point, int tick) {
   const TaskVector u = point.direction.head(chain.dimension());
   Escape escape{.link = point.link,
                 .obstacle = point.obstacle,
-                .clearance = point.distance - problem_->link_radius - problem_->margin,
+                .clearance = point.distance - radius_of(point) - problem_->margin,
                 .j0 = JointVector::Zero(chain.joints())};
   if (point.s > 0) escape.j0 += point.s * (jacobian(link.end).transpose() * u);
   if (point.s < 1) escape.j0 += (1 - point.s) * (jacobian(link.start).transpose() * u);
@@ -95,6 +108,16 @@ Escape ArmSurroundings::escape(const ClosestPoint& point, int tick) {
         point.direction.dot(velocity_at(obstacle, tick, problem_->dt, point.p_obstacle));
   }
   return escape;
+}
+
+const TaskJacobian& ArmSurroundings::task_jacobian() {
+  if (!task_.has_orientation()) return jacobian(problem_->chain.points() - 1);
+  if (!J_task_known_) {
+    task_.jacobian(pose_, J_task_);
+    ++counters_->jacobians;
+    J_task_known_ = true;
+  }
+  return J_task_;
 }
 
 const TaskJacobian& ArmSurroundings::jacobian(int point) {

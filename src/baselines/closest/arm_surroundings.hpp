@@ -11,6 +11,7 @@
 #include "baselines/closest/closest_point_search.hpp"
 #include "bqsa/hybrid_ik.hpp"
 #include "bqsa/method.hpp"
+#include "bqsa/tip_task.hpp"
 
 namespace bqsa::baselines {
 
@@ -53,18 +54,16 @@ class ArmSurroundings {
 
   const ChainPose& pose() const { return pose_; }
 
-  /// Jacobian of the tip, or of another point of the chain; made once a look.
-  const TaskJacobian& tip_jacobian() { return jacobian(problem_->chain.points() - 1); }
+  /// Rows of the tip's task (TipTask), or of a point of the chain; made once a look.
+  const TaskJacobian& task_jacobian();
   const TaskJacobian& jacobian(int point);
 
-  /// x_dot that brings the tip to a point [m] within the tick [m/s].
-  TaskVector tip_velocity(const Eigen::Vector3d& p_WT_desired) const {
-    return (p_WT_desired - pose_.tip()).head(problem_->dimension()) / problem_->dt;
-  }
+  /// x_dot that brings the tip to where it is desired within the tick [m/s].
+  TaskVector task_velocity(const StepInput& input);
 
   /// Je⁺ xe: joint velocity of plain tracking, the hybrid inverse kinematics with W = I and phi = 0,
   /// closed over the tip error; kept until the next call [rad/s].
-  const JointVector& track(const Eigen::Vector3d& p_WT_desired);
+  const JointVector& track(const StepInput& input);
 
   /// Of obstacles within influence, obstacle by obstacle and from base to tip.
   const std::vector<Escape>& escapes() const { return escapes_; }
@@ -74,6 +73,9 @@ class ArmSurroundings {
 
  private:
   void keep_closest_of_each_obstacle();
+  double radius_of(const ClosestPoint& point) const {  // of its link [m]
+    return problem_->radius_of(static_cast<std::size_t>(point.link));
+  }
   Escape escape(const ClosestPoint& point, int tick);
 
   std::unique_ptr<ClosestPointSearch> search_;
@@ -88,6 +90,9 @@ class ArmSurroundings {
   HybridIkResult ik_;
   std::array<TaskJacobian, kMaxPoints> J_points_;  // valid where J_known_, since the last look
   std::array<bool, kMaxPoints> J_known_{};
+  TipTask task_;
+  TaskJacobian J_task_;  // of a task with an orientation; valid where known, since the last look
+  bool J_task_known_ = false;
 };
 
 /// Velocity of the obstacle's material point that is at p [m] at tick - 1, over the tick [m/s].

@@ -9,8 +9,12 @@
 namespace bqsa::baselines {
 namespace {
 
-constexpr Capabilities kEverything{
-    .planar = true, .spatial = true, .link_radius = true, .margin = true, .moving = true};
+constexpr Capabilities kEverything{.planar = true,
+                                   .spatial = true,
+                                   .link_radius = true,
+                                   .margin = true,
+                                   .moving = true,
+                                   .orientation = true};
 
 // The gains are the best of results/gain_sweep (tools/sweep_gains.py).
 constexpr AvoidanceSettings kMaciejewskiKlein{.law = AvoidanceLaw::kMaciejewskiKlein,

@@ -16,7 +16,7 @@ struct ClosestPoint {
   int link = 0;         ///< index into SerialChain::links
   int obstacle = 0;     ///< index into Problem::obstacles
   double s = 0;         ///< on the link: 0 start, 1 end
-  double distance = 0;  ///< of the link's axis; at most 0, or the link's radius, if they meet [m]
+  double distance = 0;  ///< of the link's axis; at most 0, or that link's radius, if they meet [m]
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();   ///< unit, in which the link gets away
   Eigen::Vector3d p_obstacle = Eigen::Vector3d::Zero();  ///< the obstacle's point, in W [m]
 };

@@ -52,6 +52,7 @@ struct FclDistanceSearch::Scene {
   fcl::DistanceRequestd request;
   double unit;  ///< FCL's lengths in one metre
   int tick = 0;
+  std::vector<std::shared_ptr<fcl::Capsuled>> capsules;  ///< of the links
   std::vector<std::unique_ptr<fcl::CollisionObjectd>> links;
   std::vector<std::unique_ptr<fcl::CollisionObjectd>> obstacles;
   std::vector<std::size_t> numbers;  ///< 0, 1, ...: what the obstacles' user data point to
@@ -64,6 +65,7 @@ struct FclDistanceSearch::Scene {
   std::vector<ClosestPoint>* found = nullptr;
 
   void place(std::size_t j);
+  void place_link();
   void query(std::size_t j);
 };
 
@@ -74,12 +76,22 @@ void FclDistanceSearch::Scene::place(std::size_t j) {
   obstacles[j]->computeAABB();
 }
 
+/// The link in progress is where its axis is, and as long.
+void FclDistanceSearch::Scene::place_link() {
+  fcl::CollisionObjectd& object = *links[link];
+  if (problem->chain.has_prismatic_joints()) {
+    capsules[link]->lz = unit * (axis.b - axis.a).norm();
+    capsules[link]->computeLocalAABB();
+  }
+  object.setTransform(turn_from_z(axis.b - axis.a), 0.5 * unit * (axis.a + axis.b));
+}
+
 /// One narrow-phase query of the link in progress.
 void FclDistanceSearch::Scene::query(std::size_t j) {
   fcl::DistanceResultd result;  // fresh: results accumulate
   fcl::distance(links[link].get(), obstacles[j].get(), request, result);
   ++counters->distance_queries;
-  const double radius = problem->link_radius;
+  const double radius = problem->radius_of(link);
   const double gap = result.min_distance / unit;
   if (gap + radius >= reach) return;
 
@@ -120,12 +132,13 @@ void FclDistanceSearch::assign(const Problem& problem, double exempt_length,
 
   const SerialChain& chain = problem.chain;
   ChainPose pose;
-  chain.forward(JointVector::Zero(chain.joints()), pose);  // lengths of links are those of any pose
+  chain.forward(problem.start, pose);
   for (std::size_t i = 0; i < chain.links().size(); ++i) {
     const LinkAxis axis = link_axis(chain, pose, i, exempt_length);
     const double length = axis.s_end < 0 ? 0 : (axis.b - axis.a).norm();
-    scene.links.push_back(std::make_unique<fcl::CollisionObjectd>(
-        std::make_shared<fcl::Capsuled>(scene.unit * problem.link_radius, scene.unit * length)));
+    scene.capsules.push_back(
+        std::make_shared<fcl::Capsuled>(scene.unit * problem.radius_of(i), scene.unit * length));
+    scene.links.push_back(std::make_unique<fcl::CollisionObjectd>(scene.capsules.back()));
   }
   scene.numbers.resize(problem.obstacles.size());
   std::iota(scene.numbers.begin(), scene.numbers.end(), std::size_t{0});
@@ -162,8 +175,7 @@ void FclDistanceSearch::search(const ChainPose& pose, double reach,
     scene.axis = link_axis(scene.problem->chain, pose, scene.link, scene.exempt_length);
     if (scene.axis.s_end < 0) continue;
     fcl::CollisionObjectd& link = *scene.links[scene.link];
-    link.setTransform(turn_from_z(scene.axis.b - scene.axis.a),
-                      0.5 * scene.unit * (scene.axis.a + scene.axis.b));
+    scene.place_link();
     if (!broadphase_) {
       for (std::size_t j = 0; j < scene.obstacles.size(); ++j) scene.query(j);
       continue;
@@ -175,7 +187,7 @@ void FclDistanceSearch::search(const ChainPose& pose, double reach,
       Scene& at = *static_cast<Scene*>(data);
       const fcl::CollisionObjectd* obstacle = one == at.links[at.link].get() ? other : one;
       at.query(*static_cast<const std::size_t*>(obstacle->getUserData()));
-      bound = at.unit * (at.reach - at.problem->link_radius);
+      bound = at.unit * (at.reach - at.problem->radius_of(at.link));
       return false;
     };
     scene.manager.distance(&link, &scene, visit);

@@ -44,7 +44,10 @@ double distance_at_least(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
 void MotionCheck::assign(const Problem& problem, WorkCounters& counters) {
   problem_ = &problem;
   counters_ = &counters;
-  clearance_ = problem.link_radius + problem.margin + kSafety;
+  clearances_.clear();
+  for (std::size_t i = 0; i < problem.chain.links().size(); ++i) {
+    clearances_.push_back(problem.radius_of(i) + problem.margin + kSafety);
+  }
   const int links = static_cast<int>(problem.chain.links().size());
   const int obstacles = static_cast<int>(problem.obstacles.size());
 
@@ -74,7 +77,7 @@ void MotionCheck::assign(const Problem& problem, WorkCounters& counters) {
   }
   const auto moves = [](const Obstacle& obstacle) { return obstacle.moves(); };
   if (std::ranges::none_of(problem.obstacles, moves)) {
-    filter_.emplace(problem.chain, shapes_, clearance_);
+    filter_.emplace(problem.chain, shapes_, problem.link_radius + problem.margin + kSafety);
   }
 }
 
@@ -89,7 +92,8 @@ bool MotionCheck::is_free_between(double t0, const JointVector& q0, double t1,
                                   int halvings) {
   const double t = (t0 + t1) / 2;
   const JointVector q = (q0 + q1) / 2;
-  const JointVector turn = (q1 - q0).cwiseAbs() / 2;  // on either side of the middle
+  const JointVector change = (q1 - q0).cwiseAbs() / 2;  // on either side of the middle
+  const JointVector travel = q0.cwiseAbs().cwiseMax(q1.cwiseAbs());
   const SerialChain& chain = problem_->chain;
   go_to(t);
   chain.forward(q, pose_);
@@ -102,12 +106,13 @@ bool MotionCheck::is_free_between(double t0, const JointVector& q0, double t1,
     const Eigen::Vector3d a = pose_.p_WO.col(link.start);
     const Eigen::Vector3d b = pose_.p_WO.col(link.end);
     const Ellipsoid& shape = shapes_[static_cast<std::size_t>(pair.obstacle)];
+    const double clearance = clearances_[static_cast<std::size_t>(pair.link)];
     const double needed =
-        clearance_ + link_motion(link, turn) + obstacle_motion(pair.obstacle, t0, t1);
+        clearance + link_motion(link, change, travel) + obstacle_motion(pair.obstacle, t0, t1);
     if (distance_at_least(a, b, shape) >= needed) continue;
     ++counters_->distance_queries;
     const double distance = segment_distance(a, b, shape).distance;
-    if (distance < clearance_) return false;
+    if (distance < clearance) return false;
     if (distance < needed) open.push_back(pair);
   }
   if (open.empty()) return true;
@@ -126,12 +131,13 @@ bool MotionCheck::is_certainly_free(const JointVector& q0, const JointVector& q1
   return free;
 }
 
-double MotionCheck::link_motion(const Link& link, const JointVector& turn) const {
+double MotionCheck::link_motion(const Link& link, const JointVector& change,
+                                const JointVector& travel) const {
   double start = 0;
   double end = 0;
-  for (int j = 0; j < turn.size(); ++j) {
-    start += turn(j) * problem_->chain.reach(j, link.start);
-    end += turn(j) * problem_->chain.reach(j, link.end);
+  for (int j = 0; j < change.size(); ++j) {
+    start += change(j) * problem_->chain.speed_bound(j, link.start, travel);
+    end += change(j) * problem_->chain.speed_bound(j, link.end, travel);
   }
   return std::max(start, end);
 }

@@ -51,13 +51,14 @@ class MotionCheck {
 
   /// How far any point of the link or obstacle gets, at most, from where it is in the middle of the
   /// motion [m].
-  /// @param turn  of each joint on either side of the middle, not negative [rad]
-  double link_motion(const Link& link, const JointVector& turn) const;
+  /// @param change  of each joint on either side of the middle, not negative [rad, m]
+  /// @param travel  furthest that each joint is from 0 [rad, m]
+  double link_motion(const Link& link, const JointVector& change, const JointVector& travel) const;
   double obstacle_motion(int obstacle, double t0, double t1) const;
 
   const Problem* problem_ = nullptr;
   WorkCounters* counters_ = nullptr;
-  double clearance_ = 0;                ///< of the links' axes [m]
+  std::vector<double> clearances_;      ///< of the links' axes [m]
   std::optional<MotionFilter> filter_;  ///< none if an obstacle moves
   std::vector<Pair> all_pairs_;
   std::vector<std::vector<Pair>> open_;      ///< pairs still open at each depth

@@ -1,6 +1,5 @@
 #include <ompl/base/ConstrainedSpaceInformation.h>
 #include <ompl/base/Constraint.h>
-#include <ompl/base/MotionValidator.h>
 #include <ompl/base/spaces/constraint/ProjectedStateSpace.h>
 #include <ompl/geometric/PathGeometric.h>
 #include <ompl/geometric/PathSimplifier.h>
@@ -9,7 +8,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "baselines/planning/ompl_planners.hpp"
+#include "baselines/planning/ompl_motions.hpp"
 #include "baselines/planning/ompl_space.hpp"
 
 namespace bqsa::baselines {
@@ -164,11 +163,11 @@ class PathSpace final : public ob::ProjectedStateSpace {
 };
 
 /// Motions are traced on the manifold, and each hop has to be later, in time and free with proof.
-class HopValidator final : public ob::MotionValidator {
+class HopValidator final : public WholeMotions {
  public:
   HopValidator(const ob::SpaceInformationPtr& information, const PathSpace& space,
                const Manifold& manifold)
-      : ob::MotionValidator(information), space_(space), manifold_(manifold) {}
+      : WholeMotions(information), space_(space), manifold_(manifold) {}
 
   bool checkMotion(const ob::State* from, const ob::State* to) const override {
     ++manifold_.scene.counters().iterations;
@@ -185,14 +184,7 @@ class HopValidator final : public ob::MotionValidator {
     return true;
   }
 
-  /// KPIECE asks here. Of a motion that is not valid nothing is kept.
-  bool checkMotion(const ob::State* from, const ob::State* to,
-                   std::pair<ob::State*, double>& last_valid) const override {
-    if (checkMotion(from, to)) return true;
-    if (last_valid.first != nullptr) space_.copyState(last_valid.first, from);
-    last_valid.second = 0;
-    return false;
-  }
+  using WholeMotions::checkMotion;
 
   /// All postures of the motion, both ends with it.
   static bool trace(const PathSpace& space, const Manifold& manifold, const ob::State* from,

@@ -27,8 +27,8 @@ void QpAvoidance::prepare(const Problem& problem) {
 void QpAvoidance::step(const StepInput& input, StepOutput& output) {
   output = {};
   surroundings_.look(input.tick, input.q);
-  tracking_ = surroundings_.track(input.p_WT_desired);
-  if (!rows_.assign(*problem_, input.q, tracking_, surroundings_.tip_jacobian(),
+  tracking_ = surroundings_.track(input);
+  if (!rows_.assign(*problem_, input.q, tracking_, surroundings_.task_jacobian(),
                     surroundings_.escapes())) {
     return hold(input.q, Infeasible::kJointLimit, 0, -1, output);
   }
@@ -50,7 +50,8 @@ void QpAvoidance::step(const StepInput& input, StepOutput& output) {
 QpStatus QpAvoidance::solve() {
   const bool compact = settings_.solver == QpSolver::kCompact;
   if (compact) {
-    compact_.assign(rows_.program(), static_cast<int>(problem_->dimension()), tracking_);
+    compact_.assign(rows_.program(), static_cast<int>(surroundings_.task_jacobian().rows()),
+                    tracking_);
     ++counters_.linear_solves;
   }
   const QuadraticProgram& hard = compact ? compact_.reduced() : rows_.program();

@@ -34,8 +34,8 @@ batch::Arm arm_of(const SerialChain& chain, double largest_angle) {
     for (int k = 0; k < 3; ++k) arm.base[axis][k] = static_cast<float>(description.R_WB(k, axis));
     arm.tool[axis] = static_cast<float>(description.p_LT(axis));
   }
-  for (int j = 0; j < arm.joints; ++j) {
-    const DhRow& row = description.rows[static_cast<std::size_t>(j)];
+  for (std::size_t j = 0; j < description.rows.size(); ++j) {
+    const DhRow& row = description.rows[j];
     arm.rows[j] = {.a = static_cast<float>(row.a),
                    .d = static_cast<float>(row.d),
                    .cos_alpha = static_cast<float>(std::cos(row.alpha)),
@@ -95,6 +95,7 @@ ConfigurationCheck::ConfigurationCheck(const SerialChain& chain, std::span<const
                                        double clearance, double largest_angle)
     : origin_(chain.description().p_WB),
       clearance_(clearance),
+      has_rows_(!chain.description().is_placed()),
       obstacles_(ObstacleBatch<2, float>(0, {})) {
   validate(clearance, largest_angle);
   largest_angle = std::min(largest_angle, kLargestSum - largest_offset(chain));
@@ -123,6 +124,10 @@ void ConfigurationCheck::set(int obstacle, const Ellipsoid& shape) {
 void ConfigurationCheck::certainly_free(const ConfigurationArray& configurations,
                                         std::span<std::uint16_t> free) const {
   assert(configurations.joints() == arm_.joints && free.size() == configurations.blocks());
+  if (!has_rows_) {
+    std::ranges::fill(free, std::uint16_t{0});
+    return;
+  }
   batch::ArmPass pass{.arm = &arm_,
                       .angles = configurations.data(),
                       .blocks = static_cast<int>(configurations.blocks()),

@@ -63,7 +63,7 @@ class ConfigurationArray {
 ///
 /// to the error of the position, a few hundredths of a millimetre in the end. The base is the origin.
 /// What is not certainly free need not hit: it may be closer than that, or beside a thin obstacle, for
-/// which both growths are generous.
+/// which both growths are generous. Of a chain that is given by placements nothing is certain.
 class ConfigurationCheck {
  public:
   /// @param shapes         in the plane `embedded` ellipses
@@ -93,6 +93,7 @@ class ConfigurationCheck {
   double clearance_;
   double point_error_;
   batch::Arm arm_;
+  bool has_rows_;  ///< the chain, in Denavit-Hartenberg parameters
   Obstacles obstacles_;
 };
 

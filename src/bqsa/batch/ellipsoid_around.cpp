@@ -37,7 +37,15 @@ EllipsoidN<Dim> ellipsoid_around(const EllipsoidN<Dim>& shape, double distance) 
                          shape.rotation());
 }
 
+template <int Dim>
+double largest_excess_around(const EllipsoidN<Dim>& shape, double distance) {
+  const EllipsoidN<Dim> around = ellipsoid_around(shape, distance);
+  return ((around.semi_axes() - shape.semi_axes()).array() - distance).maxCoeff();
+}
+
 template Ellipse ellipsoid_around<2>(const Ellipse&, double);
 template Ellipsoid ellipsoid_around<3>(const Ellipsoid&, double);
+template double largest_excess_around<2>(const Ellipse&, double);
+template double largest_excess_around<3>(const Ellipsoid&, double);
 
 }  // namespace bqsa

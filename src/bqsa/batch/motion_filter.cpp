@@ -10,12 +10,16 @@ namespace {
 constexpr int kMiddles = ConfigurationArray::kBlock;
 
 /// M of the class comment [m].
-double longest_way(const SerialChain& chain, const JointVector& dq) {
+double longest_way(const SerialChain& chain, const JointVector& q0, const JointVector& q1) {
+  const JointVector dq = q1 - q0;
+  JointVector travel;
+  if (chain.has_prismatic_joints()) travel = q0.cwiseAbs().cwiseMax(q1.cwiseAbs());
   double longest = 0;
   for (const Link& link : chain.links()) {
     double way = 0;
     for (int j = 0; j < chain.moving_joints(link.end); ++j) {
-      way += std::abs(dq(j)) * chain.reach(j, link.end);
+      way += std::abs(dq(j)) * (travel.size() > 0 ? chain.speed_bound(j, link.end, travel)
+                                                  : chain.reach(j, link.end));
     }
     longest = std::max(longest, way);
   }
@@ -32,7 +36,7 @@ MotionFilter::MotionFilter(const SerialChain& chain, std::span<const Ellipsoid> 
 
 bool MotionFilter::certainly_free(const JointVector& q0, const JointVector& q1) {
   const JointVector dq = q1 - q0;
-  const double needed = longest_way(*chain_, dq) / (1.5 * kMiddles);
+  const double needed = longest_way(*chain_, q0, q1) / (1.5 * kMiddles);
   const auto* spacing = std::ranges::find_if(kSpacings, [&](double s) { return needed <= s; });
   if (spacing == std::end(kSpacings)) return false;
   for (int i = 0; i < kMiddles; ++i) middles_.set(i, q0 + (i + 0.5) / kMiddles * dq);

@@ -12,7 +12,7 @@ namespace bqsa {
 /// free. It is for methods that check many motions; what it does not prove is left to an exact check,
 /// whose verdict it does not change.
 ///
-/// No point of the arm moves further than M = max_k sum_j |dq_j| reach_jk (SerialChain::reach). The
+/// No point of the arm moves further than M = max_k sum_j |dq_j| r_jk (SerialChain::speed_bound). The
 /// motion is cut into 16 equal parts, whose middles are looked at all at a time
 /// (configuration_check.hpp), with the obstacles grown by `spacing` beyond the clearance. If all are free
 /// there and M / 32 <= 3/4 spacing, all links keep the clearance and a quarter of the spacing more, all

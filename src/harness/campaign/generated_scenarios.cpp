@@ -66,7 +66,7 @@ std::vector<PlannedScenario> generate_scenarios(const GeneratedScenarios& wanted
                                                 const fs::path& directory,
                                                 const std::function<void()>& made) {
   const Family& family = *find_family(wanted.family);
-  const std::vector<Arm> arms = family.spatial ? spatial_arms(wanted.robots) : std::vector<Arm>();
+  const std::vector<Arm> arms = arms_of(family, wanted.robots);
   std::error_code error;
   fs::create_directories(directory, error);
   if (!fs::is_directory(directory)) {

@@ -129,4 +129,11 @@ bool has_plan(const fs::path& directory) {
   return fs::exists(plan_file(directory), unknown);
 }
 
+std::optional<std::vector<std::string>> planned_keys(const std::filesystem::path& directory) {
+  if (!has_plan(directory)) return std::nullopt;
+  std::vector<std::string> keys;
+  for (const ListedRun& run : read_plan(directory).runs) keys.push_back(run.key);
+  return keys;
+}
+
 }  // namespace bqsa::harness

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,5 +44,9 @@ ListedPlan read_plan(const std::filesystem::path& directory);
 
 /// Whether the directory is that of a campaign: it has a plan.
 bool has_plan(const std::filesystem::path& directory);
+
+/// Keys of its runs, in the plan's order; nothing if it has no plan.
+/// @throws InputError as read_plan()
+std::optional<std::vector<std::string>> planned_keys(const std::filesystem::path& directory);
 
 }  // namespace bqsa::harness

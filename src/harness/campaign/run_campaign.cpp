@@ -121,7 +121,8 @@ class RunWorker {
       scenario_.reset();
       throw InputError(fmt::format("{}: changed since the campaign began", planned.file.string()));
     }
-    judge_ = std::make_unique<Judge>(scenario_->problem);
+    judge_ =
+        std::make_unique<Judge>(scenario_->problem, scenario_->truth, scenario_->self_collision);
     loaded_ = index;
   }
 

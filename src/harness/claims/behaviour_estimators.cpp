@@ -64,6 +64,7 @@ StepOutput open_step(const Problem& open, const MethodSpec& method, const Record
                      {.tick = tick,
                       .t = t,
                       .p_WT_desired = open.desired_tip(t),
+                      .R_WT_desired = open.rotation_at(t),
                       .q = run.trajectory.q[static_cast<std::size_t>(tick) - 1]});
 }
 
@@ -92,7 +93,7 @@ Findings cleared_pairs(const Arguments& arguments, Laboratory& laboratory) {
   experiment.obstacles = true;
   experiment.method = "none";
   for (const Contact& contact : laboratory.judgement(experiment).contacts) {
-    hit.insert({contact.link, name(contact.obstacle)});
+    hit.insert({contact.link, contact.obstacle});
   }
   return {.figures = {success,
                       {"pairs", static_cast<double>(cleared.size())},

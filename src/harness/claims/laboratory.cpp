@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "harness/generator/generator.hpp"
 #include "harness/method_spec.hpp"
@@ -30,8 +31,21 @@ std::string Experiment::key() const {
 const Scenario& Laboratory::scenario(const std::string& name) {
   const auto found = scenarios_.find(name);
   if (found != scenarios_.end()) return found->second;
-  return scenarios_.emplace(name, load_scenario(settings_.scenarios / (name + ".yaml")))
-      .first->second;
+  const std::filesystem::path file = settings_.scenarios / (name + ".yaml");
+  Scenario scenario = load_scenario(file);
+  if (!scenario.geometry.solids.empty()) {
+    throw InputError(
+        fmt::format("{}: expected obstacles that are ellipsoids, got solids, which "
+                    "experiments neither move nor take away",
+                    file.string()));
+  }
+  if (scenario.self_collision) {
+    throw InputError(
+        fmt::format("{}: expected a scenario without self_collision, got one with it, which "
+                    "experiments do not judge",
+                    file.string()));
+  }
+  return scenarios_.emplace(name, std::move(scenario)).first->second;
 }
 
 Problem Laboratory::problem(const Experiment& experiment) {

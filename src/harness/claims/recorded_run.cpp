@@ -36,6 +36,7 @@ RecordedRun record_run(Problem problem, const MethodSpec& spec) {
     method->step({.tick = tick,
                   .t = t,
                   .p_WT_desired = run.problem.desired_tip(t),
+                  .R_WT_desired = run.problem.rotation_at(t),
                   .q = run.trajectory.q.back()},
                  output);
     run.ticks.push_back({output.state,

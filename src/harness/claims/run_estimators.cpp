@@ -50,10 +50,8 @@ Findings run(const Arguments& arguments, Laboratory& laboratory) {
   }
   if (!judgement.success()) findings.remarks.push_back("failures: " + failures_of(judgement));
   for (const Contact& contact : judgement.contacts) {
-    findings.remarks.push_back(
-        fmt::format("collided: ({}, {}) from tick {}", contact.link,
-                    recorded.problem.obstacles[static_cast<std::size_t>(contact.obstacle)].name,
-                    contact.first_tick));
+    findings.remarks.push_back(fmt::format("collided: ({}, {}) from tick {}", contact.link,
+                                           contact.obstacle, contact.first_tick));
   }
   return findings;
 }

@@ -80,6 +80,7 @@ void replay(const RecordedRun& recorded, const MethodSpec& method, TickTimes& ti
     input.tick = static_cast<int>(tick);
     input.t = recorded.problem.time(input.tick);
     input.p_WT_desired = recorded.problem.desired_tip(input.t);
+    input.R_WT_desired = recorded.problem.rotation_at(input.t);
     input.q = recorded.trajectory.q[tick - 1];
     reactive.step(input, output);
   };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "harness/results/summary.hpp"
 
@@ -73,21 +74,40 @@ void describe_runs(const ExportedExperiment& experiment, const std::vector<Origi
   if (arena.processor == "several") arena.processor += '\n';
 }
 
-/// By name, as the reader of logs adds the columns.
+/// By name, as the reader of logs adds the columns. One that the scenario lacks is left out, since a log has no
+/// word for nothing.
 std::vector<ExperimentProperty> properties_of(const ExportedScenario& scenario) {
   const auto whole = [](auto number) { return Cell(static_cast<std::int64_t>(number)); };
-  return {{"control_ticks", "INTEGER", whole(scenario.ticks)},
-          {"dimension", "INTEGER", whole(scenario.dimension)},
-          {"dt_s", "REAL", scenario.dt_s},
-          {"joints", "INTEGER", whole(scenario.joints)},
-          {"link_radius_m", "REAL", scenario.link_radius_m},
-          {"links", "INTEGER", whole(scenario.links)},
-          {"margin_m", "REAL", scenario.margin_m},
-          {"nk", "INTEGER", whole(scenario.nk)},
-          {"obstacles", "INTEGER", whole(scenario.obstacles.size())},
-          {"scenario", "TEXT", one_word(scenario.name)},
-          {"scenario_sha256", "TEXT", one_word(scenario.sha256)},
-          {"tolerance_m", "REAL", scenario.tolerance_m}};
+  const auto word = [](const std::string& text) {
+    return text.empty() ? Cell() : Cell(one_word(text));
+  };
+  const auto real = [](double number) { return std::isfinite(number) ? Cell(number) : Cell(); };
+  const std::string radii = fmt::format("{}", fmt::join(scenario.link_radii_m, " "));
+  std::vector<ExperimentProperty> properties = {
+      {"control_ticks", "INTEGER", whole(scenario.ticks)},
+      {"dimension", "INTEGER", whole(scenario.dimension)},
+      {"dt_s", "REAL", scenario.dt_s},
+      {"gap_lost_m", "REAL", scenario.gap_lost_m},
+      {"joints", "INTEGER", whole(scenario.joints)},
+      {"link_radii_m", "TEXT", radii.empty() ? Cell() : Cell(radii)},
+      {"link_radius_m", "REAL", scenario.link_radius_m},
+      {"links", "INTEGER", whole(scenario.links)},
+      {"margin_m", "REAL", scenario.margin_m},
+      {"nk", "INTEGER", whole(scenario.nk)},
+      {"obstacles", "INTEGER", whole(scenario.obstacles.size())},
+      {"orientation", "TEXT", word(scenario.orientation)},
+      {"orientation_tolerance_rad", "REAL", real(scenario.orientation_tolerance_rad)},
+      {"radius_excess_m", "REAL", scenario.radius_excess_m},
+      {"reference_clearance_m", "REAL", real(scenario.reference_clearance_m)},
+      {"robot", "TEXT", word(scenario.robot)},
+      {"scenario", "TEXT", one_word(scenario.name)},
+      {"scenario_sha256", "TEXT", one_word(scenario.sha256)},
+      {"solids", "INTEGER", whole(scenario.solids.size())},
+      {"tolerance_m", "REAL", scenario.tolerance_m}};
+  std::erase_if(properties, [](const ExperimentProperty& property) {
+    return std::holds_alternative<std::monostate>(property.value);
+  });
+  return properties;
 }
 
 }  // namespace

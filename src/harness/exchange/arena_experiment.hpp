@@ -22,7 +22,7 @@ struct ExperimentProperty {
 /// Where the runs of an experiment do not agree its words are `several`, its limits the largest.
 struct ArenaExperiment {
   std::string name;  ///< one word: the scenario's family, so that a series of sizes has one name
-  std::vector<ExperimentProperty> properties;  ///< by name
+  std::vector<ExperimentProperty> properties;  ///< those that the scenario has, by name
   double total_s = 0;                          ///< wall time of all runs
   double time_limit_s = 0;
   double memory_limit_mb = 0;  ///< in units of 2^20 bytes

@@ -3,178 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cassert>
-#include <cmath>
-#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "harness/exchange/record_parts.hpp"
 #include "harness/results/record_files.hpp"
 #include "harness/results/result_store.hpp"
-#include "harness/text_file.hpp"
 
 namespace bqsa::harness {
 namespace {
-
-struct OriginColumn {
-  const char* name;  ///< no keyword of SQL
-  const char* key;   ///< below `provenance`
-};
-
-constexpr std::array kOriginColumns{
-    OriginColumn{"version", "version"},
-    OriginColumn{"source_commit", "commit"},
-    OriginColumn{"modified", "dirty"},
-    OriginColumn{"compiler", "compiler"},
-    OriginColumn{"build_type", "build_type"},
-    OriginColumn{"compiler_flags", "flags"},
-    OriginColumn{"assertions", "assertions"},
-    OriginColumn{"sanitizers", "sanitizers"},
-    OriginColumn{"libraries", "libraries"},
-    OriginColumn{"processor", "processor"},
-    OriginColumn{"cores", "cores"},
-    OriginColumn{"governor", "governor"},
-    OriginColumn{"os", "os"},
-    OriginColumn{"host", "host"},
-    OriginColumn{"jobs", "jobs"},
-    OriginColumn{"isolated", "isolated"},
-    OriginColumn{"wall_limit_s", "wall_limit_s"},
-    OriginColumn{"memory_limit_bytes", "memory_limit_bytes"},
-    OriginColumn{"plan_budget_s", "plan_budget_s"},
-    OriginColumn{"command_line", "command_line"},
-    OriginColumn{"out_of_tree", "out_of_tree"},
-    OriginColumn{"external_command", "external"},
-};
-
-constexpr auto kOriginNames = [] {
-  std::array<const char*, kOriginColumns.size()> names{};
-  for (std::size_t i = 0; i < names.size(); ++i) names[i] = kOriginColumns[i].name;
-  return names;
-}();
-
-/// Whole numbers that SQL has no place for become real ones.
-Cell scalar_cell(const nlohmann::json& json) {
-  if (json.is_boolean()) return json.get<bool>();
-  constexpr std::uint64_t kLargest = std::numeric_limits<std::int64_t>::max();
-  if (json.is_number_unsigned() && json.get<std::uint64_t>() > kLargest) return json.get<double>();
-  if (json.is_number_integer()) return json.get<std::int64_t>();
-  if (json.is_number()) return json.get<double>();
-  if (json.is_string()) return printable(json.get_ref<const std::string&>());
-  return {};
-}
-
-/// `Eigen 3.4.0, FCL 0.7.0` of an object, `a, b` of a list.
-Cell origin_cell(const nlohmann::json& json) {
-  if (!json.is_structured()) return scalar_cell(json);
-  std::string text;
-  for (const auto& [key, value] : json.items()) {
-    const std::string entry =
-        value.is_string() ? printable(value.get_ref<const std::string&>()) : value.dump();
-    text += text.empty() ? "" : ", ";
-    text += json.is_object() ? printable(key) + " " + entry : entry;
-  }
-  return text;
-}
-
-Origin read_origin(const nlohmann::json& provenance) {
-  Origin origin;
-  for (const OriginColumn& column : kOriginColumns) {
-    const auto found = provenance.find(column.key);
-    origin.values.push_back(found == provenance.end() ? Cell() : origin_cell(*found));
-  }
-  return origin;
-}
-
-std::vector<std::string> texts(const RecordValue& list) {
-  std::vector<std::string> all;
-  for (const RecordValue& value : list.list()) all.push_back(value.text());
-  return all;
-}
-
-std::string optional_text(const RecordValue& object, const char* key) {
-  return object.has(key) && !object[key].is_null() ? object[key].text() : "";
-}
-
-double optional_number(const RecordValue& object, const char* key) {
-  return object.has(key) ? object[key].number() : std::numeric_limits<double>::quiet_NaN();
-}
-
-double finite(const RecordValue& value) {
-  const double number = value.number();
-  if (!std::isfinite(number)) value.refuse("expected a number");
-  return number;
-}
-
-ExportedScenario read_scenario(const RecordValue& record) {
-  const RecordValue problem = record["problem"];
-  return {.name = record["scenario"]["name"].text(),
-          .sha256 = record["scenario"]["sha256"].text(),
-          .file = record["scenario"]["file"].text(),
-          .dimension = problem["dimension"].integer(),
-          .joints = problem["joints"].integer(),
-          .links = problem["links"].integer(),
-          .obstacles = texts(problem["obstacles"]),
-          .nk = problem["nk"].integer(),
-          .ticks = problem["ticks"].integer(),
-          .dt_s = finite(problem["dt_s"]),
-          .tolerance_m = finite(problem["tolerance_m"]),
-          .margin_m = finite(problem["margin_m"]),
-          .link_radius_m = finite(problem["link_radius_m"])};
-}
-
-/// @param json  of the record's method
-ExportedMethod read_method(const RecordValue& method, const nlohmann::json& json) {
-  ExportedMethod read{.name = method["name"].text(),
-                      .variant = method["variant"].text(),
-                      .changed = method["changed"].text(),
-                      .parameters = {}};
-  for (const auto& [name, value] : method["parameters"].members()) {
-    read.parameters.push_back({name, {}});
-  }
-  std::size_t i = 0;
-  for (const auto& value : json["parameters"]) {
-    read.parameters[i++].value = scalar_cell(value);
-  }
-  return read;
-}
-
-std::vector<ExportedContact> read_contacts(const RecordValue& list) {
-  std::vector<ExportedContact> contacts;
-  for (const RecordValue& contact : list.list()) {
-    contacts.push_back({.link = contact["link"].integer(),
-                        .obstacle = optional_text(contact, "obstacle"),
-                        .first_tick = contact["first_tick"].integer(),
-                        .at_tick = contact["at_tick"].boolean(),
-                        .ticks = contact["ticks"].integer()});
-  }
-  return contacts;
-}
-
-ExportedRun read_run(const RecordValue& record, const TableRow& row) {
-  const RecordValue provenance = record["provenance"];
-  ExportedRun run;
-  run.figures = read_figures(record, row);
-  if (record.has("counters")) {
-    for (const auto& [name, value] : record["counters"].members()) {
-      run.counters.emplace_back(name, value.whole());
-    }
-  }
-  run.failures = row.failures;
-  run.contacts = read_contacts(record["judged"]["contacts"]);
-  run.claim_obstacle = optional_text(record["claimed"], "obstacle");
-  run.claim_message = optional_text(record["claimed"], "message");
-  run.disagreement = row.disagreement;
-  run.trajectory = optional_text(record, "trajectory");
-  run.seed = provenance.has("seed") ? std::to_string(provenance["seed"].whole()) : "";
-  run.date = provenance["date"].text();
-  run.load_average = optional_number(provenance, "load_average");
-  if (provenance.has("restarts")) run.restarts = provenance["restarts"].integer();
-  run.against = texts(record["times"]["against"]);
-  run.total_s = std::isfinite(row.run_s) ? row.run_s : 0;
-  return run;
-}
 
 bool is_of_campaign(const RecordValue& record) {
   return record.has("campaign") && !record["campaign"].is_null();
@@ -201,9 +40,13 @@ class Collection {
       return;
     }
     entry.place = has_plan_ ? planned->second : entries_.size();
-    if (entry.run) {
+    Origin origin = read_origin(json["provenance"]);
+    if (!entry.run) {
+      entry.misfit.record = place;
+      entry.misfit.origin = intern(std::move(origin), read_.misfit_origins);
+    } else {
       entry.run->record = place;
-      entry.run->origin = intern(read_origin(json["provenance"]), read_.origins);
+      entry.run->origin = intern(std::move(origin), read_.origins);
       entry.run->campaign = entry.campaign;
       entry.run->key = entry.key;
     }
@@ -218,6 +61,9 @@ class Collection {
     for (Entry& entry : entries_) {
       if (!entry.run) {
         ++read_.not_applicable;
+        entry.misfit.scenario = scenarios_[entry.scenario];
+        entry.misfit.method = methods_[entry.method];
+        read_.misfits.push_back(std::move(entry.misfit));
         continue;
       }
       const std::string& file = entry.run->trajectory;
@@ -239,6 +85,7 @@ class Collection {
     std::size_t scenario = 0;
     std::size_t method = 0;
     std::optional<ExportedRun> run = {};  ///< of a pair that fits
+    ExportedMisfit misfit = {};           ///< of one that does not
   };
 
   /// Index of a value among those that are known, of which it is one from now on.
@@ -257,7 +104,12 @@ class Collection {
       entry.repetition = record["campaign"]["repetition"].integer();
     }
     entry.seed = row.seed;
-    if (row.applicable) entry.run = read_run(record, row);
+    if (row.applicable) {
+      entry.run = read_run(record, row);
+    } else {
+      entry.misfit.row = row;
+      entry.misfit.date = record["provenance"]["date"].text();
+    }
     ExportedMethod method = read_method(record["method"], json["method"]);
     const auto [known_method, new_method] = method_places_.try_emplace(
         fmt::format("{}\n{}", method.variant, fmt::join(method.settings(), "\n")), methods_.size());
@@ -314,26 +166,6 @@ class Collection {
 };
 
 }  // namespace
-
-std::span<const char* const> Origin::columns() { return kOriginNames; }
-
-const Cell& Origin::operator[](std::string_view column) const {
-  const auto found = std::find(kOriginNames.begin(), kOriginNames.end(), column);
-  assert(found != kOriginNames.end());
-  return values[static_cast<std::size_t>(found - kOriginNames.begin())];
-}
-
-std::string Origin::text(std::string_view column) const {
-  const auto* text = std::get_if<std::string>(&(*this)[column]);
-  return text != nullptr ? *text : "unknown";
-}
-
-double Origin::number(std::string_view column) const {
-  const Cell& cell = (*this)[column];
-  if (const auto* real = std::get_if<double>(&cell)) return *real;
-  if (const auto* whole = std::get_if<std::int64_t>(&cell)) return static_cast<double>(*whole);
-  return 0;
-}
 
 const Figure& ExportedRun::figure(std::string_view column) const {
   const auto columns = run_columns();

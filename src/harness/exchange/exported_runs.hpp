@@ -6,31 +6,19 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "harness/exchange/origin.hpp"
 #include "harness/exchange/run_columns.hpp"
 #include "harness/input_error.hpp"
+#include "harness/results/table_row.hpp"
 
 namespace bqsa::harness {
-
-/// What of a run's provenance many runs share: build, machine, limits, call.
-struct Origin {
-  static std::span<const char* const> columns();
-
-  std::vector<Cell> values;  ///< one for each column
-
-  /// @param column  of columns()
-  const Cell& operator[](std::string_view column) const;
-  std::string text(std::string_view column) const;  ///< `unknown` if it has none
-  double number(std::string_view column) const;     ///< 0 if it has none
-
-  bool operator==(const Origin&) const = default;
-};
 
 struct ExportedContact {
   int link = 0;
@@ -40,12 +28,31 @@ struct ExportedContact {
   int ticks = 0;
 };
 
+/// Two links that collide.
+struct ExportedSelfContact {
+  int link = 0;
+  int other_link = 0;
+  int first_tick = 0;
+  bool at_tick = false;
+  int ticks = 0;
+};
+
+/// A pair of link and obstacle that the method says it kept apart.
+struct ExportedClamp {
+  int link = 0;
+  std::string obstacle;  ///< empty if the record names none
+  int ticks = 0;
+};
+
 /// One run that was judged.
 struct ExportedRun {
+  TableRow row;                 ///< what the table shows of it
   std::vector<Figure> figures;  ///< by run_columns()
   std::vector<std::pair<std::string, std::uint64_t>> counters;
   std::vector<std::string> failures;  ///< the most telling first
   std::vector<ExportedContact> contacts;
+  std::vector<ExportedSelfContact> self_contacts;
+  std::vector<ExportedClamp> clamped;
   std::string claim_obstacle;
   std::string claim_message;
   std::string disagreement;
@@ -87,6 +94,18 @@ struct ExportedConfiguration {
   std::vector<ExportedRun> runs;  ///< at least one
 };
 
+/// An obstacle that is a solid, as a LedgerEntry.
+struct ExportedSolid {
+  std::string name;
+  std::string kind;
+  int parts = 1;
+  int ellipsoids = 1;
+  double inflation_m = 0;
+  double volume_ratio = 1;  ///< not a number for a solid without volume
+  bool within_bounds = true;
+  double hull_over_mesh = 0;  ///< not a number where there is none
+};
+
 /// A scenario file as its records describe it.
 struct ExportedScenario {
   std::string name;
@@ -101,7 +120,15 @@ struct ExportedScenario {
   double dt_s = 0;
   double tolerance_m = 0;
   double margin_m = 0;
-  double link_radius_m = 0;
+  double link_radius_m = 0;               ///< of all links, or of the thickest
+  std::vector<double> link_radii_m = {};  ///< each link's own, or none
+  std::string robot = {};                 ///< its name; empty if it has none
+  std::string orientation = {};           ///< `axis` or `pose`; empty if the task has none
+  double orientation_tolerance_rad = std::numeric_limits<double>::quiet_NaN();  ///< likewise
+  double reference_clearance_m = std::numeric_limits<double>::quiet_NaN();  ///< if it states one
+  std::vector<ExportedSolid> solids = {};  ///< none if all obstacles are ellipsoids
+  double gap_lost_m = 0;                   ///< GeometryLedger::gap_lost
+  double radius_excess_m = 0;              ///< GeometryLedger::radius_excess
 };
 
 struct ExportedExperiment {
@@ -109,13 +136,25 @@ struct ExportedExperiment {
   std::vector<ExportedConfiguration> configurations;  ///< at least one
 };
 
+/// A pair of method and problem that do not fit each other, of which there is no run.
+struct ExportedMisfit {
+  ExportedScenario scenario;
+  ExportedMethod method;
+  TableRow row;
+  std::string date;
+  std::size_t origin = 0;  ///< index into ExportedRuns::misfit_origins
+  std::string record;      ///< file and line
+};
+
 struct ExportedRuns {
   std::vector<ExportedExperiment> experiments;
-  std::vector<Origin> origins;
-  int runs = 0;            ///< in all experiments
-  int not_applicable = 0;  ///< pairs of method and problem that do not fit, without a run
-  int superseded = 0;      ///< repeated later
-  int stale = 0;           ///< not of the plan
+  std::vector<ExportedMisfit> misfits;
+  std::vector<Origin> origins;         ///< of the runs
+  std::vector<Origin> misfit_origins;  ///< of the misfits
+  int runs = 0;                        ///< in all experiments
+  int not_applicable = 0;              ///< number of misfits
+  int superseded = 0;                  ///< repeated later
+  int stale = 0;                       ///< not of the plan
   std::vector<std::string> bad_lines;  ///< `<file>:<line>: why`
 };
 

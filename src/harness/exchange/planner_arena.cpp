@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <set>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -77,7 +79,7 @@ class ArenaWriter {
   void write(const ExportedRuns& runs) {
     database_.execute("PRAGMA foreign_keys = ON; BEGIN");
     database_.execute(kArenaTables);
-    add_columns(arena_experiment(runs.experiments.front(), runs.origins));
+    add_run_columns();
     add_enumerations();
     OwnTables own(database_);
     for (std::size_t i = 0; i < runs.origins.size(); ++i) own.add_origin(i, runs.origins[i]);
@@ -99,11 +101,7 @@ class ArenaWriter {
   }
 
  private:
-  void add_columns(const ArenaExperiment& any) {
-    for (const ExperimentProperty& property : any.properties) {
-      database_.execute(
-          fmt::format("ALTER TABLE experiments ADD {} {}", property.name, property.sql_type));
-    }
+  void add_run_columns() {
     for (const RunColumn& column : run_columns()) {
       database_.execute(fmt::format("ALTER TABLE runs ADD {} {}", column.name, column.sql_type()));
     }
@@ -118,9 +116,21 @@ class ArenaWriter {
     }
   }
 
+  /// Those that no experiment before had, as the reader of logs does.
+  void add_property_columns(const ArenaExperiment& arena) {
+    for (const ExperimentProperty& property : arena.properties) {
+      if (!property_columns_.insert(property.name).second) continue;
+      database_.execute(
+          fmt::format("ALTER TABLE experiments ADD {} {}", property.name, property.sql_type));
+    }
+  }
+
   Cell add_experiment(const ArenaExperiment& arena) {
-    std::vector<Cell> cells{Cell(),
-                            arena.name,
+    add_property_columns(arena);
+    std::string columns =
+        "name, totaltime, timelimit, memorylimit, runcount, version, hostname, cpuinfo, "
+        "date, seed, setup";
+    std::vector<Cell> cells{arena.name,
                             arena.total_s,
                             arena.time_limit_s,
                             arena.memory_limit_mb,
@@ -131,8 +141,13 @@ class ArenaWriter {
                             arena.date,
                             arena.seed,
                             arena.setup};
-    for (const ExperimentProperty& property : arena.properties) cells.push_back(property.value);
-    SqliteStatement(database_, insert_statement("experiments", cells.size())).run(cells);
+    for (const ExperimentProperty& property : arena.properties) {
+      columns += fmt::format(", {}", property.name);
+      cells.push_back(property.value);
+    }
+    SqliteStatement(database_,
+                    insert_statement(fmt::format("experiments ({})", columns), cells.size()))
+        .run(cells);
     return database_.last_row_id();
   }
 
@@ -149,6 +164,7 @@ class ArenaWriter {
   }
 
   SqliteDatabase& database_;
+  std::set<std::string> property_columns_;
   std::map<std::pair<std::string, std::string>, std::int64_t> planners_;
 };
 

@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "bqsa/method.hpp"
@@ -40,6 +41,8 @@ constexpr std::array kColumns{
     RunColumn{"judged_rows", kInteger, "judged.rows"},
     RunColumn{"touching", kBoolean, "judged.touching"},
     RunColumn{"contact_pairs", kCount, "judged.contacts"},
+    RunColumn{"self_contact_pairs", kCount, "judged.self_collision.contacts"},
+    RunColumn{"self_clearance_at_ticks_m", kReal, "judged.self_collision.clearance_at_ticks_m"},
     RunColumn{"clearance_m", kReal, "judged.clearance_m"},
     RunColumn{"clearance_at_ticks_m", kReal, "judged.clearance_at_ticks_m"},
     RunColumn{"tip_error_at_ticks_mean_m", kReal, "judged.tip_error_at_ticks.mean_m"},
@@ -57,12 +60,31 @@ constexpr std::array kColumns{
     RunColumn{"tip_error_between_ticks_max_z_m", kReal, "judged.tip_error_between_ticks.max_z_m"},
     RunColumn{"tip_error_between_ticks_max_tick", kInteger,
               "judged.tip_error_between_ticks.max_tick"},
+    RunColumn{"orientation_at_ticks_mean_rad", kReal, "judged.orientation_at_ticks.mean_rad"},
+    RunColumn{"orientation_at_ticks_max_rad", kReal, "judged.orientation_at_ticks.max_rad"},
+    RunColumn{"orientation_at_ticks_max_tick", kInteger, "judged.orientation_at_ticks.max_tick"},
+    RunColumn{"orientation_between_ticks_mean_rad", kReal,
+              "judged.orientation_between_ticks.mean_rad"},
+    RunColumn{"orientation_between_ticks_max_rad", kReal,
+              "judged.orientation_between_ticks.max_rad"},
+    RunColumn{"orientation_between_ticks_max_tick", kInteger,
+              "judged.orientation_between_ticks.max_tick"},
     RunColumn{"start_error_m", kReal, "judged.start_error_m"},
     RunColumn{"max_joint_step_rad", kReal, "judged.max_joint_step_rad"},
     RunColumn{"max_joint_step_tick", kInteger, "judged.max_joint_step_tick"},
+    RunColumn{"max_joint_slide_m", kReal, "judged.max_joint_slide_m"},
+    RunColumn{"max_joint_slide_tick", kInteger, "judged.max_joint_slide_tick"},
+    RunColumn{"closed_path_drift_rad", kReal, "motion.closed_path_drift_rad"},
+    RunColumn{"closed_path_drift_joint_rad", kReal, "motion.closed_path_drift_joint_rad"},
+    RunColumn{"manipulability_min", kReal, "motion.manipulability_min"},
+    RunColumn{"manipulability_mean", kReal, "motion.manipulability_mean"},
+    RunColumn{"singular_value_min_m", kReal, "motion.singular_value_min_m"},
+    RunColumn{"null_space_share", kReal, "motion.null_space_share"},
+    RunColumn{"jerk_rms_rad_s3", kReal, "motion.jerk_rms_rad_s3"},
     RunColumn{"free_ticks", kInteger, "ticks.free"},
     RunColumn{"clamped_ticks", kInteger, "ticks.clamped"},
     RunColumn{"unclaimed_ticks", kInteger, "ticks.unclaimed"},
+    RunColumn{"clamp_starts", kInteger, "ticks.clamp_starts"},
     RunColumn{"increments_total", kInteger, "ticks.increments_total"},
     RunColumn{"increments_max", kInteger, "ticks.increments_max"},
     RunColumn{"increments_tick_mean", kReal, "ticks.increments_tick_mean"},
@@ -107,7 +129,7 @@ std::vector<std::string> names(Enum first, Enum last) {
 }
 
 std::vector<Enumeration> make_enumerations() {
-  std::vector<std::string> status = names(Failure::kDisagreement, Failure::kDrift);
+  std::vector<std::string> status = names(Failure::kDisagreement, Failure::kOrientation);
   status.insert(status.begin(), kSuccess);
   return {{"status", status},
           {"claim", names(Claim::kSuccess, Claim::kOutOfMemory)},
@@ -171,6 +193,16 @@ Figure read_figure(const RecordValue& object, std::string_view key, const RunCol
 
 Cell cell_of(const Figure& figure) {
   return std::visit([](const auto& value) { return Cell(value); }, figure);
+}
+
+Cell scalar_cell(const nlohmann::json& json) {
+  if (json.is_boolean()) return json.get<bool>();
+  constexpr std::uint64_t kLargest = std::numeric_limits<std::int64_t>::max();
+  if (json.is_number_unsigned() && json.get<std::uint64_t>() > kLargest) return json.get<double>();
+  if (json.is_number_integer()) return json.get<std::int64_t>();
+  if (json.is_number()) return json.get<double>();
+  if (json.is_string()) return printable(json.get_ref<const std::string&>());
+  return {};
 }
 
 std::string cell_text(const Cell& cell) {

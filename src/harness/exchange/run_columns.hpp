@@ -21,6 +21,10 @@ using Cell = std::variant<std::monostate, bool, std::int64_t, double, std::strin
 
 Cell cell_of(const Figure& figure);
 
+/// Of a truth, number or text: whole numbers that SQL has no place for become real ones. Nothing of anything
+/// else.
+Cell scalar_cell(const nlohmann::json& json);
+
 /// Numbers with the fewest digits that read back as the same, 0 and 1 for false and true, nothing for
 /// nothing.
 std::string cell_text(const Cell& cell);

@@ -56,6 +56,7 @@ std::vector<std::string> header(const std::set<std::string>& parameters) {
                                  "scenario_sha256",
                                  "scenario_file",
                                  "family",
+                                 "robot",
                                  "dimension",
                                  "joints",
                                  "links",
@@ -66,6 +67,13 @@ std::vector<std::string> header(const std::set<std::string>& parameters) {
                                  "tolerance_m",
                                  "margin_m",
                                  "link_radius_m",
+                                 "link_radii_m",
+                                 "orientation",
+                                 "orientation_tolerance_rad",
+                                 "reference_clearance_m",
+                                 "solids",
+                                 "gap_lost_m",
+                                 "radius_excess_m",
                                  "method",
                                  "variant",
                                  "changed_parameters",
@@ -82,11 +90,17 @@ std::vector<std::string> header(const std::set<std::string>& parameters) {
   return names;
 }
 
+/// Nothing if it is not a number.
+std::string number_text(double number) {
+  return std::isfinite(number) ? fmt::format("{}", number) : "";
+}
+
 std::vector<std::string> scenario_fields(const ExportedScenario& scenario) {
   return {scenario.name,
           scenario.sha256,
           scenario.file,
           family_of(scenario.name),
+          scenario.robot,
           fmt::format("{}", scenario.dimension),
           fmt::format("{}", scenario.joints),
           fmt::format("{}", scenario.links),
@@ -96,7 +110,14 @@ std::vector<std::string> scenario_fields(const ExportedScenario& scenario) {
           fmt::format("{}", scenario.dt_s),
           fmt::format("{}", scenario.tolerance_m),
           fmt::format("{}", scenario.margin_m),
-          fmt::format("{}", scenario.link_radius_m)};
+          fmt::format("{}", scenario.link_radius_m),
+          fmt::format("{}", fmt::join(scenario.link_radii_m, " ")),
+          scenario.orientation,
+          number_text(scenario.orientation_tolerance_rad),
+          number_text(scenario.reference_clearance_m),
+          fmt::format("{}", scenario.solids.size()),
+          fmt::format("{}", scenario.gap_lost_m),
+          fmt::format("{}", scenario.radius_excess_m)};
 }
 
 std::string parameter_text(const ExportedMethod& method, const std::string& name) {
@@ -112,12 +133,11 @@ void append_run(const ExportedRun& run, const Origin& origin, std::vector<std::s
     const bool is_seed = std::string_view(run_columns()[i].name) == "seed";
     fields.push_back(is_seed ? run.seed : figure_text(run_columns()[i], run.figures[i]));
   }
-  fields.insert(fields.end(),
-                {fmt::format("{}", fmt::join(run.failures, " ")), run.claim_obstacle,
-                 run.claim_message, run.disagreement, run.trajectory, run.date,
-                 std::isfinite(run.load_average) ? fmt::format("{}", run.load_average) : "",
-                 run.restarts ? fmt::format("{}", *run.restarts) : "",
-                 fmt::format("{}", fmt::join(run.against, ", "))});
+  fields.insert(fields.end(), {fmt::format("{}", fmt::join(run.failures, " ")), run.claim_obstacle,
+                               run.claim_message, run.disagreement, run.trajectory, run.date,
+                               number_text(run.load_average),
+                               run.restarts ? fmt::format("{}", *run.restarts) : "",
+                               fmt::format("{}", fmt::join(run.against, ", "))});
   for (const Cell& cell : origin.values) fields.push_back(cell_text(cell));
   fields.push_back(run.record);
 }

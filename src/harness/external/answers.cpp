@@ -82,15 +82,19 @@ std::vector<ParameterDeclaration> parameters_of(const AnswerValue& list) {
   return parameters;
 }
 
-/// Those not named are those that a Capabilities object has by default.
+/// Those not named are those that a Capabilities object has by default, but for prismatic joints: a
+/// program that turns all joints would be wrong, and not refuse.
 Capabilities capabilities_of(const AnswerValue& value) {
-  value.expect_keys({"planar", "spatial", "link_radius", "margin", "moving", "keeps_limits"});
+  value.expect_keys({"planar", "spatial", "link_radius", "margin", "moving", "prismatic",
+                     "orientation", "keeps_limits"});
   Capabilities can;
   can.planar = value.boolean_or("planar", can.planar);
   can.spatial = value.boolean_or("spatial", can.spatial);
   can.link_radius = value.boolean_or("link_radius", can.link_radius);
   can.margin = value.boolean_or("margin", can.margin);
   can.moving = value.boolean_or("moving", can.moving);
+  can.prismatic = value.boolean_or("prismatic", false);
+  can.orientation = value.boolean_or("orientation", can.orientation);
   can.keeps_limits = value.boolean_or("keeps_limits", can.keeps_limits);
   if (!can.planar && !can.spatial) value.refuse("planar, spatial or both to be true");
   return can;

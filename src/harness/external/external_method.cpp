@@ -65,19 +65,22 @@ class ExternalReactive final : public ReactiveMethod {
   void prepare(const Problem& problem) override {
     counters_ = {};
     obstacles_ = static_cast<int>(problem.obstacles.size());
+    turned_ = problem.has_orientation();
     made_.prepare(problem);
   }
 
   void step(const StepInput& input, StepOutput& output) override {
-    made_.program.ask({.name = fmt::format("step {}", input.tick), .line = step_request(input)},
-                      [&](const std::string& line) {
-                        read_step_answer(line, input, obstacles_, output, counters_);
-                      });
+    made_.program.ask(
+        {.name = fmt::format("step {}", input.tick), .line = step_request(input, turned_)},
+        [&](const std::string& line) {
+          read_step_answer(line, input, obstacles_, output, counters_);
+        });
   }
 
  private:
   Made made_;
   int obstacles_ = 0;
+  bool turned_ = false;
 };
 
 class ExternalPlanner final : public PlanningMethod {

@@ -28,7 +28,9 @@ Json columns_of(const Columns& matrix) {
   return columns;
 }
 
+/// Null for a chain that is given otherwise.
 Json denavit_hartenberg(const ChainDescription& description) {
+  if (description.is_placed()) return {};
   Json rows = Json::array();
   for (const DhRow& row : description.rows) {
     rows.push_back({{"a", row.a}, {"alpha", row.alpha}, {"d", row.d}, {"offset", row.offset}});
@@ -38,10 +40,11 @@ Json denavit_hartenberg(const ChainDescription& description) {
           {"rows", rows},
           {"R_WB", rows_of(description.R_WB)},
           {"p_WB", list_of(description.p_WB)},
-          {"p_LT", list_of(description.p_LT)}};
+          {"p_LT", list_of(description.p_LT)},
+          {"R_LT", rows_of(description.R_LT)}};
 }
 
-/// Where axes and points are for q = 0: turning them about the axes, the last first, gives any pose.
+/// Where axes and points are for q = 0: moving them by the joints, the last first, gives any pose.
 Json pose_at_zero(const SerialChain& chain) {
   ChainPose pose;
   chain.forward(JointVector::Zero(chain.joints()), pose);
@@ -50,6 +53,7 @@ Json pose_at_zero(const SerialChain& chain) {
   return {{"axes", columns_of(pose.axis_W)},
           {"pivots", columns_of(pose.pivot_W)},
           {"points", columns_of(pose.p_WO)},
+          {"tip_rotation", rows_of(chain.tip_rotation(pose))},
           {"moving_joints", moving_joints}};
 }
 
@@ -58,8 +62,13 @@ Json robot_json(const SerialChain& chain) {
   for (const Link& link : chain.links()) {
     links.push_back({{"number", link.number}, {"start", link.start}, {"end", link.end}});
   }
+  Json types = Json::array();
+  for (int j = 0; j < chain.joints(); ++j) {
+    types.push_back(chain.is_prismatic(j) ? "prismatic" : "revolute");
+  }
   return {{"dimension", chain.dimension()},
           {"joints", chain.joints()},
+          {"joint_types", types},
           {"denavit_hartenberg", denavit_hartenberg(chain.description())},
           {"at_zero", pose_at_zero(chain)},
           {"links", links}};
@@ -81,6 +90,20 @@ Json obstacle_json(const Obstacle& obstacle) {
 /// Null where nothing is limited.
 Json limit_json(const JointVector& limit) { return limit.size() > 0 ? list_of(limit) : Json(); }
 
+const char* name_of(TaskKind kind) {
+  return kind == TaskKind::kPosition ? "position" : kind == TaskKind::kAxis ? "axis" : "pose";
+}
+
+/// At the ticks; null where no orientation is desired.
+Json rotations_json(const Problem& problem) {
+  if (!problem.has_orientation()) return {};
+  Json rotations = Json::array();
+  for (int tick = 0; tick <= problem.ticks; ++tick) {
+    rotations.push_back(rows_of(problem.rotation_at(problem.time(tick))));
+  }
+  return rotations;
+}
+
 Json problem_json(const Problem& problem) {
   Json obstacles = Json::array();
   for (const Obstacle& obstacle : problem.obstacles) obstacles.push_back(obstacle_json(obstacle));
@@ -90,12 +113,18 @@ Json problem_json(const Problem& problem) {
   }
   Json max_step = Json::array();
   for (int j = 0; j < problem.chain.joints(); ++j) max_step.push_back(problem.max_step(j));
+  Json radii = Json::array();
+  for (std::size_t i = 0; i < problem.chain.links().size(); ++i) {
+    radii.push_back(problem.radius_of(i));
+  }
   return {{"name", problem.name},
           {"robot", robot_json(problem.chain)},
           {"obstacles", obstacles},
           {"ticks", problem.ticks},
           {"dt", problem.dt},
           {"path", path},
+          {"task", name_of(problem.task_kind)},
+          {"rotations", rotations_json(problem)},
           {"start", list_of(problem.start)},
           {"limits",
            {{"lower", limit_json(problem.limits.lower)},
@@ -103,8 +132,10 @@ Json problem_json(const Problem& problem) {
             {"max_velocity", limit_json(problem.limits.max_velocity)}}},
           {"max_step", max_step},
           {"link_radius", problem.link_radius},
+          {"link_radii", radii},
           {"margin", problem.margin},
-          {"tolerance", problem.tolerance}};
+          {"tolerance", problem.tolerance},
+          {"orientation_tolerance", problem.orientation_tolerance}};
 }
 
 /// Names may hold bytes that are no UTF-8; they are replaced rather than refused.
@@ -132,12 +163,14 @@ std::string prepare_request(const Problem& problem,
       {{"request", "prepare"}, {"problem", problem_json(problem)}, {"parameters", parameters}});
 }
 
-std::string step_request(const StepInput& input) {
-  return one_line({{"request", "step"},
-                   {"tick", input.tick},
-                   {"t", input.t},
-                   {"p_WT_desired", list_of(input.p_WT_desired)},
-                   {"q", list_of(input.q)}});
+std::string step_request(const StepInput& input, bool turned) {
+  Json request{{"request", "step"},
+               {"tick", input.tick},
+               {"t", input.t},
+               {"p_WT_desired", list_of(input.p_WT_desired)}};
+  if (turned) request["R_WT_desired"] = rows_of(input.R_WT_desired);
+  request["q"] = list_of(input.q);
+  return one_line(request);
 }
 
 std::string plan_request(double budget_s, std::uint64_t seed) {

@@ -22,7 +22,8 @@ std::string prepare_request(const Problem& problem,
                             const std::vector<ParameterDeclaration>& declared,
                             const ParameterValues& values);
 
-std::string step_request(const StepInput& input);
+/// @param turned  whether the task has an orientation, which is then told too
+std::string step_request(const StepInput& input, bool turned = false);
 std::string plan_request(double budget_s, std::uint64_t seed);
 std::string quit_request();
 

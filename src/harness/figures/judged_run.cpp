@@ -18,10 +18,11 @@ constexpr int kSamplesBetween = 10;  // of the tip, between two ticks
 bool is_close(const JudgedRun& run, std::size_t row) {
   for (const Obstacle& obstacle : run.problem().obstacles) {
     const Ellipsoid& shape = obstacle.at(static_cast<int>(row));
-    for (const LinkSegment& link : run.links) {
+    for (std::size_t i = 0; i < run.links.size(); ++i) {
+      const LinkSegment& link = run.links[i];
       const SegmentDistance distance =
           exact_distance(run.start_of(link, row), run.end_of(link, row), shape);
-      if (distance.clearance() - run.problem().link_radius < kClose) return true;
+      if (distance.clearance() - run.problem().radius_of(i) < kClose) return true;
     }
   }
   return false;
@@ -43,7 +44,7 @@ JudgedRun judged_run(const Scenario& scenario, std::string_view method) {
                 .judgement = {},
                 .links = {},
                 .positions = {}};
-  run.judgement = Judge(problem).judge(run.trajectory());
+  run.judgement = Judge(problem, scenario.truth, scenario.self_collision).judge(run.trajectory());
   const JudgeKinematics kinematics(problem.chain.description());
   run.links.assign(kinematics.links().begin(), kinematics.links().end());
   run.positions.resize(static_cast<std::size_t>(run.judgement.rows));

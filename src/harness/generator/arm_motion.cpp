@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "harness/judge/exact_distance.hpp"
-
 namespace bqsa::harness {
 
 ArmMotion::ArmMotion(const Problem& problem, std::vector<JointVector> q)
@@ -41,24 +39,19 @@ bool ArmMotion::tracks() const {
   return true;
 }
 
-bool ArmMotion::is_closer(int tick, const Link& link, const Obstacle& obstacle,
+bool ArmMotion::is_closer(int tick, std::size_t link, const PlacedShape& obstacle,
                           double clearance) const {
   const ChainPose& at = pose(tick);
-  return harness::is_closer(at.p_WO.col(link.start), at.p_WO.col(link.end), obstacle.at(tick),
-                            clearance);
+  const Link& ends = problem_.chain.links()[link];
+  return obstacle.is_closer(at.p_WO.col(ends.start), at.p_WO.col(ends.end), tick,
+                            clearance + problem_.radius_of(link));
 }
 
-bool ArmMotion::is_clear(int tick, const Obstacle& obstacle, double clearance) const {
-  const auto links = problem_.chain.links();
-  return std::none_of(links.begin(), links.end(),
-                      [&](const Link& link) { return is_closer(tick, link, obstacle, clearance); });
-}
-
-bool is_closer(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Ellipsoid& shape,
-               double clearance) {
-  const double outer_radius = (b - a).norm() / 2 + shape.semi_axes().maxCoeff();
-  if (((a + b) / 2 - shape.center()).norm() > outer_radius + std::max(clearance, 0.0)) return false;
-  return exact_distance(a, b, shape).clearance() < clearance;
+bool ArmMotion::is_clear(int tick, const PlacedShape& obstacle, double clearance) const {
+  for (std::size_t link = 0; link < problem_.chain.links().size(); ++link) {
+    if (is_closer(tick, link, obstacle, clearance)) return false;
+  }
+  return true;
 }
 
 }  // namespace bqsa::harness

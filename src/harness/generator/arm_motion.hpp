@@ -2,10 +2,12 @@
 /// A motion of an arm along the path of a problem, and how close its links come to obstacles.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "bqsa/method.hpp"
 #include "bqsa/problem.hpp"
+#include "harness/generator/placed_shape.hpp"
 
 namespace bqsa::harness {
 
@@ -25,22 +27,17 @@ class ArmMotion {
   /// Whether the tip error at ticks keeps the tolerance and every step the largest allowed.
   bool tracks() const;
 
-  /// Whether a link at a tick is closer to the obstacle than `clearance`, or, where that is
+  /// Whether a link (of SerialChain::links) at a tick, with its radius, is closer to the obstacle than `clearance`, or, where that is
   /// negative, deeper in it [m].
-  bool is_closer(int tick, const Link& link, const Obstacle& obstacle, double clearance) const;
+  bool is_closer(int tick, std::size_t link, const PlacedShape& obstacle, double clearance) const;
 
   /// Whether all links are that far away from the obstacle at a tick [m].
-  bool is_clear(int tick, const Obstacle& obstacle, double clearance) const;
+  bool is_clear(int tick, const PlacedShape& obstacle, double clearance) const;
 
  private:
   Problem problem_;
   std::vector<JointVector> q_;
   std::vector<ChainPose> poses_;
 };
-
-/// Whether a segment is closer to the shape than `clearance`, or, where that is negative, deeper in
-/// it [m].
-bool is_closer(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Ellipsoid& shape,
-               double clearance);
 
 }  // namespace bqsa::harness

@@ -4,44 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <vector>
+
+#include "harness/generator/draw_spot.hpp"
 
 namespace bqsa::harness {
 namespace {
 
 using Eigen::Vector3d;
-
-/// A random place on a link.
-struct Spot {
-  int tick = 0;
-  Vector3d point = Vector3d::Zero();      ///< [m]
-  Vector3d sideways = Vector3d::UnitX();  ///< random unit vector orthogonal to the link
-};
-
-Spot draw_spot(const NominalMotion& nominal, int first_tick, int last_tick, int first_link,
-               RandomStream& random) {
-  std::vector<Link> links;
-  for (const Link& link : nominal.problem().chain.links()) {
-    if (link.number >= first_link) links.push_back(link);
-  }
-  Spot spot{.tick = random.whole(first_tick, last_tick)};
-  const auto last = static_cast<int>(links.size()) - 1;
-  const Link& link = links[static_cast<std::size_t>(random.whole(0, last))];
-  const ChainPose& pose = nominal.pose(spot.tick);
-  const Vector3d from = pose.p_WO.col(link.start);
-  const Vector3d to = pose.p_WO.col(link.end);
-  spot.point = from + random.uniform(0.1, 0.9) * (to - from);
-  const Vector3d along = (to - from).normalized();
-  const Vector3d any = random.direction(nominal.problem().dimension());
-  spot.sideways = (any - any.dot(along) * along).normalized();
-  return spot;
-}
-
-/// On an outer link in the middle half of the motion.
-Spot draw_middle_spot(const NominalMotion& nominal, RandomStream& random) {
-  const int quarter = nominal.problem().ticks / 4;
-  return draw_spot(nominal, quarter, 3 * quarter, kFirstOuterLink, random);
-}
 
 /// An obstacle of random size and rotation about the origin.
 ObstacleDraft draw_shape(int dimension, RandomStream& random) {
@@ -65,17 +34,19 @@ ObstacleDraft draw_shape(int dimension, RandomStream& random) {
           .rotation = {rounded(angle), 0, 0, 0}};
 }
 
-/// How far a spot's obstacle is shifted sideways: never so far that it leaves the link's line [m].
-double draw_shift(const Ellipsoid& shape, const Vector3d& sideways, int dimension,
-                  RandomStream& random) {
+/// How far a spot's obstacle is shifted sideways: never so far that it leaves the link [m].
+double draw_shift(const Ellipsoid& shape, const Vector3d& sideways, double link_radius,
+                  int dimension, RandomStream& random) {
   return dimension == 2 ? random.uniform(0, 0.9) * shape.support(sideways)
-                        : random.uniform(0.2, 0.9) * shape.semi_axes().minCoeff();
+                        : random.uniform(0.2, 0.9) * (shape.semi_axes().minCoeff() + link_radius);
 }
 
-Vector3d draw_center(const Spot& spot, const ObstacleDraft& obstacle, int dimension, double t,
-                     RandomStream& random) {
-  const Ellipsoid shape = shape_at(obstacle, dimension, t);
-  return spot.point + draw_shift(shape, spot.sideways, dimension, random) * spot.sideways;
+Vector3d draw_center(const Spot& spot, const ObstacleDraft& obstacle, const Problem& problem,
+                     double t, RandomStream& random) {
+  const Ellipsoid shape = shape_at(obstacle, problem.dimension(), t);
+  const double radius = problem.radius_of(spot.link);
+  return spot.point +
+         draw_shift(shape, spot.sideways, radius, problem.dimension(), random) * spot.sideways;
 }
 
 }  // namespace
@@ -84,7 +55,7 @@ ObstacleDraft draw_on_link(const NominalMotion& nominal, RandomStream& random) {
   const int dimension = nominal.problem().dimension();
   const Spot spot = draw_middle_spot(nominal, random);
   ObstacleDraft obstacle = draw_shape(dimension, random);
-  obstacle.center = rounded(draw_center(spot, obstacle, dimension, 0, random));
+  obstacle.center = rounded(draw_center(spot, obstacle, nominal.problem(), 0, random));
   return obstacle;
 }
 
@@ -102,8 +73,8 @@ ObstacleDraft draw_moving(const NominalMotion& nominal, RandomStream& random) {
   const double turn = random.uniform(-kFastestTurn, kFastestTurn);
   if (random.chance(0.5)) obstacle.motion->angular_velocity = rounded(Vector3d(turn * axis));
   const double t = nominal.problem().time(spot.tick);
-  obstacle.center = rounded(
-      Vector3d(draw_center(spot, obstacle, dimension, t, random) - obstacle.motion->velocity * t));
+  obstacle.center = rounded(Vector3d(draw_center(spot, obstacle, nominal.problem(), t, random) -
+                                     obstacle.motion->velocity * t));
   return obstacle;
 }
 

@@ -17,6 +17,7 @@ struct PathSizes {
   double least_stretching_radius, most_stretching_radius;
 };
 constexpr PathSizes kPlanarSizes = {0.4, 1.2, 0.2, 0.6, 0.2, 0.7};
+constexpr PathSizes kSizesAroundSolids = {0.4, 0.9, 0.12, 0.25, 0.08, 0.25};
 constexpr PathSizes kSpatialSizes = {0.2, 0.5, 0.08, 0.15, 0.08, 0.25};
 
 const PathSizes& sizes_of(int dimension) { return dimension == 2 ? kPlanarSizes : kSpatialSizes; }
@@ -38,14 +39,25 @@ PathDraft circle_from(const Vector3d& tip, double radius, const Vector3d& u, con
 
 }  // namespace
 
-PathDraft draw_line_or_arc(const Vector3d& tip, int dimension, RandomStream& random) {
-  const PathSizes& sizes = sizes_of(dimension);
+PathDraft draw_line_or_arc(const Vector3d& tip, int dimension, bool around_solids,
+                           RandomStream& random) {
+  const PathSizes& sizes = around_solids ? kSizesAroundSolids : sizes_of(dimension);
   const double length = random.uniform(sizes.least_length, sizes.most_length);
   const Vector3d u = random.direction(dimension);
   if (random.chance(0.5)) return LineDraft{rounded(tip), rounded(Vector3d(tip + length * u))};
   const double radius = random.uniform(sizes.least_radius, sizes.most_radius);
   const double turn = dimension == 2 ? length / radius : 2 * std::numbers::pi;
   return circle_from(tip, radius, u, draw_orthogonal(u, dimension, random), turn);
+}
+
+PathDraft draw_reaching_line(const Vector3d& tip, const Vector3d& center, RandomStream& random) {
+  const double outwards = std::atan2(tip.y() - center.y(), tip.x() - center.x());
+  const double yaw = outwards + random.uniform(-0.5, 0.5);
+  const double pitch = random.uniform(-0.2, 0.2);
+  const double length = random.uniform(0.2, 0.4);
+  const Vector3d u(std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw),
+                   std::sin(pitch));
+  return LineDraft{rounded(tip), rounded(Vector3d(tip + length * u))};
 }
 
 std::optional<PathDraft> draw_stretching_arc(const Vector3d& tip, const Arm& arm,

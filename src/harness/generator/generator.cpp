@@ -2,16 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
 #include "harness/generator/draw_obstacle.hpp"
 #include "harness/generator/draw_path.hpp"
+#include "harness/generator/draw_scene.hpp"
 #include "harness/generator/nominal_motion.hpp"
 #include "harness/generator/random_stream.hpp"
 #include "harness/generator/scenario_draft.hpp"
 #include "harness/generator/witness_motion.hpp"
 #include "harness/input_error.hpp"
+#include "harness/judge/judge.hpp"
 
 namespace bqsa::harness {
 namespace {
@@ -19,11 +22,13 @@ namespace {
 constexpr double kDuration = 5;  // [s]
 constexpr int kTicks = 200;
 constexpr int kAttempts = 10000;
+constexpr int kAttemptsOfAnArm = 20;  // before another random arm is drawn
 
 constexpr int kFewestLinks = 5;  // of planar arms
 constexpr int kMostLinks = 9;
 constexpr int kMostPlanarObstacles = 4;
 constexpr int kMostSpatialObstacles = 3;
+constexpr int kMostInClutter = 10;
 
 /// Where paths stay, of the arm's reach.
 constexpr double kNearest = 0.2;
@@ -46,13 +51,20 @@ Structure draw_structure(const Family& family, int index, const std::vector<Arm>
                          RandomStream random) {
   const bool planar = family.planar && (!family.spatial || index % 2 == 0);
   const auto turn = static_cast<std::size_t>(family.planar ? index / 2 : index);
-  Structure structure{planar ? planar_arm(random.whole(kFewestLinks, kMostLinks))
-                             : spatial_arms.at(turn % spatial_arms.size()),
+  Structure structure{planar                 ? planar_arm(random.whole(kFewestLinks, kMostLinks))
+                      : spatial_arms.empty() ? random_arm(random)
+                                             : spatial_arms[turn % spatial_arms.size()],
                       {}};
   if (family.obstacles == ObstacleKind::kSome) {
     const int more = random.whole(0, (planar ? kMostPlanarObstacles : kMostSpatialObstacles) - 1);
     for (int i = 0; i < more; ++i) {
       ++(random.chance(0.5) ? structure.plan.on_links : structure.plan.near);
+    }
+  }
+  if (family.obstacles == ObstacleKind::kClutter) {
+    const int more = random.whole(1, kMostInClutter - 1);
+    for (int i = 0; i < more; ++i) {
+      ++(random.chance(0.3) ? structure.plan.on_links : structure.plan.near);
     }
   }
   if (family.obstacles == ObstacleKind::kMoving) structure.plan.near = random.chance(1.0 / 3);
@@ -61,7 +73,10 @@ Structure draw_structure(const Family& family, int index, const std::vector<Arm>
 
 /// An arm at a random start and a path from there, no obstacles. None where there is no such path.
 std::optional<ScenarioDraft> draw_task(const Family& family, const Arm& arm, RandomStream& random) {
-  ScenarioDraft draft{.robot = arm.chain, .limits = arm.limits};
+  ScenarioDraft draft{.robot = arm.chain,
+                      .limits = arm.limits,
+                      .link_radii = arm.link_radii,
+                      .robot_name = arm.name};
   draft.duration = kDuration;
   draft.ticks = kTicks;
   draft.start.resize(arm.start_low.size());
@@ -71,7 +86,9 @@ std::optional<ScenarioDraft> draw_task(const Family& family, const Arm& arm, Ran
   ChainPose pose;
   SerialChain(arm.chain).forward(draft.start, pose);
   if (family.paths == PathKind::kLineOrArc) {
-    draft.path = draw_line_or_arc(pose.tip(), arm.chain.dimension, random);
+    draft.path = draw_line_or_arc(pose.tip(), arm.chain.dimension, family.solids, random);
+  } else if (family.paths == PathKind::kReachingIn) {
+    draft.path = draw_reaching_line(pose.tip(), arm.center, random);
   } else {
     const std::optional<PathDraft> path = draw_stretching_arc(pose.tip(), arm, random);
     if (!path) return std::nullopt;
@@ -97,10 +114,11 @@ std::optional<Filter> objection(const Family& family, const Arm& arm,
 struct Motions {
   NominalMotion nominal;
   std::optional<ArmMotion> witness = {};  ///< of families that have them
+  int placements = kPlacements;           ///< draws of an obstacle until its place is given up
 };
 
 /// Why an obstacle may not stand where it does.
-std::optional<Filter> objection(const Motions& motions, const Obstacle& obstacle) {
+std::optional<Filter> objection(const Motions& motions, const PlacedShape& obstacle) {
   if (!motions.nominal.start_is_clear(obstacle)) return Filter::kStart;
   if (!motions.nominal.path_is_clear(obstacle)) return Filter::kTipPath;
   if (!motions.nominal.inner_links_are_clear(obstacle)) return Filter::kInnerLinks;
@@ -108,23 +126,30 @@ std::optional<Filter> objection(const Motions& motions, const Obstacle& obstacle
   return std::nullopt;
 }
 
-/// Obstacles drawn together until none is objected to and, where asked for, the nominal arm hits
-/// the first. None if that does not come about.
+/// Which of the obstacles that are drawn together the nominal arm has to hit.
+enum class Hit { kNone, kFirst, kAny };
+
+bool is_hit(const NominalMotion& nominal, const std::vector<ObstacleDraft>& drafts, Hit hit) {
+  const auto end = hit == Hit::kFirst ? drafts.begin() + 1 : drafts.end();
+  return std::any_of(drafts.begin(), end, [&nominal](const ObstacleDraft& draft) {
+    return nominal.outer_link_hits(PlacedShape(draft, nominal.problem()));
+  });
+}
+
+/// Obstacles drawn together until none is objected to and the nominal arm hits what it has to. None
+/// if that does not come about.
 template <typename Draw>
-std::optional<std::vector<ObstacleDraft>> place(const Motions& motions, bool hit, Draw&& draw,
+std::optional<std::vector<ObstacleDraft>> place(const Motions& motions, Hit hit, Draw&& draw,
                                                 RandomStream& random, Rejections& rejections) {
   const NominalMotion& nominal = motions.nominal;
   const Problem& problem = nominal.problem();
-  for (int i = 0; i < kPlacements; ++i) {
+  for (int i = 0; i < motions.placements; ++i) {
     std::vector<ObstacleDraft> drafts = draw(nominal, random);
     std::optional<Filter> why;
     for (const ObstacleDraft& draft : drafts) {
-      const Obstacle obstacle = to_obstacle(draft, problem.dimension(), problem.ticks, problem.dt);
-      if (!why) why = objection(motions, obstacle);
-      if (!why && hit && &draft == &drafts.front() && !nominal.outer_link_hits(obstacle)) {
-        why = Filter::kNoHit;
-      }
+      if (!why) why = objection(motions, PlacedShape(draft, problem));
     }
+    if (!why && hit != Hit::kNone && !is_hit(nominal, drafts, hit)) why = Filter::kNoHit;
     if (!why) return drafts;
     rejections.count(*why);
   }
@@ -137,16 +162,17 @@ std::optional<std::vector<ObstacleDraft>> place_all(const Family& family, const 
                                                     Rejections& rejections) {
   using Drafts = std::vector<ObstacleDraft>;
   Drafts all;
-  const auto add = [&](bool hit, const auto& draw) {
+  const auto add = [&](Hit hit, const auto& draw) {
     std::optional<Drafts> placed = place(motions, hit, draw, random, rejections);
     if (placed) all.insert(all.end(), placed->begin(), placed->end());
     return placed.has_value();
   };
-  const auto on_link = [](const auto& motion, auto& stream) {
-    return Drafts{draw_on_link(motion, stream)};
+  const auto on_link = [&family](const auto& motion, auto& stream) {
+    return Drafts{family.solids ? draw_solid_on_link(motion, stream)
+                                : draw_on_link(motion, stream)};
   };
-  const auto near = [](const auto& motion, auto& stream) {
-    return Drafts{draw_near(motion, stream)};
+  const auto near = [&family](const auto& motion, auto& stream) {
+    return Drafts{family.solids ? draw_solid_near(motion, stream) : draw_near(motion, stream)};
   };
   const auto moving = [](const auto& motion, auto& stream) {
     return Drafts{draw_moving(motion, stream)};
@@ -160,17 +186,24 @@ std::optional<std::vector<ObstacleDraft>> place_all(const Family& family, const 
   switch (family.obstacles) {
     case ObstacleKind::kSome:
     case ObstacleKind::kOne:
-      placed = add(true, on_link);
+    case ObstacleKind::kClutter:
+      placed = add(Hit::kFirst, on_link);
       break;
     case ObstacleKind::kMoving:
-      placed = add(true, moving);
+      placed = add(Hit::kFirst, moving);
       break;
     case ObstacleKind::kGap:
-      placed = add(true, gap);
+      placed = add(Hit::kFirst, gap);
+      break;
+    case ObstacleKind::kCorridor:
+      placed = add(Hit::kAny, draw_corridor);
+      break;
+    case ObstacleKind::kShelf:
+      placed = add(Hit::kAny, draw_shelf);
       break;
   }
-  for (int i = 0; placed && i < plan.on_links; ++i) placed = add(false, on_link);
-  for (int i = 0; placed && i < plan.near; ++i) placed = add(false, near);
+  for (int i = 0; placed && i < plan.on_links; ++i) placed = add(Hit::kNone, on_link);
+  for (int i = 0; placed && i < plan.near; ++i) placed = add(Hit::kNone, near);
   if (!placed) return std::nullopt;
   for (std::size_t i = 0; i < all.size(); ++i) all[i].name = fmt::format("obstacle_{}", i + 1);
   return all;
@@ -194,6 +227,8 @@ std::optional<Drawn> draw_scenario(const Family& family, const Structure& struct
   Motions motions{NominalMotion(to_problem(*draft))};
   const std::optional<Filter> why = objection(family, structure.arm, motions.nominal);
   if (why) return rejected(*why);
+  const bool moving = family.obstacles == ObstacleKind::kMoving;
+  if (family.solids && !moving) motions.placements = kPlacementsOfSolids;
   if (family.witnesses) {
     motions.witness = draw_witness(motions.nominal.problem(), random);
     if (!motions.witness) return rejected(Filter::kWitnessMotion);
@@ -202,8 +237,11 @@ std::optional<Drawn> draw_scenario(const Family& family, const Structure& struct
   if (!obstacles) return rejected(Filter::kUnplaceable);
   draft->obstacles = *obstacles;
   if (!motions.witness) return Drawn{*draft};
-  if (!solves(*motions.witness, to_problem(*draft))) return rejected(Filter::kWitnessJudged);
-  return Drawn{*draft, motions.witness->trajectory()};
+  const Trajectory witness = motions.witness->trajectory();
+  const Judgement judgement = Judge(to_problem(*draft), to_truth(*draft)).judge(witness);
+  if (!judgement.success()) return rejected(Filter::kWitnessJudged);
+  if (family.solids) draft->reference_clearance = rounded(judgement.clearance);
+  return Drawn{*draft, witness};
 }
 
 }  // namespace
@@ -235,6 +273,37 @@ const std::vector<Family>& families() {
        .summary = "as planar, but none is known to have a solution and many have none",
        .planar = true,
        .witnesses = false},
+      {.name = "clutter",
+       .summary = "the arms of robots/ in turn, 2 to 10 solids on and near the links",
+       .spatial = true,
+       .solids = true,
+       .obstacles = ObstacleKind::kClutter},
+      {.name = "corridor",
+       .summary = "the arms of robots/ in turn, between two walls",
+       .spatial = true,
+       .solids = true,
+       .obstacles = ObstacleKind::kCorridor},
+      {.name = "shelf",
+       .summary = "the arms of robots/ in turn reach into a shelf of five boards",
+       .spatial = true,
+       .solids = true,
+       .paths = PathKind::kReachingIn,
+       .obstacles = ObstacleKind::kShelf},
+      {.name = "crossing",
+       .summary = "the arms of robots/ in turn, an obstacle that moves into a link",
+       .spatial = true,
+       .solids = true,
+       .obstacles = ObstacleKind::kMoving},
+      {.name = "stretched",
+       .summary = "the arms of robots/ in turn, nearly stretched on the way, one solid",
+       .spatial = true,
+       .solids = true,
+       .paths = PathKind::kStretchingArc,
+       .obstacles = ObstacleKind::kOne},
+      {.name = "any_arm",
+       .summary = "random arms of 6 to 8 joints, 2 to 10 solids on and near the links",
+       .solids = true,
+       .obstacles = ObstacleKind::kClutter},
   };
   return kFamilies;
 }
@@ -280,6 +349,11 @@ const char* name_of(Filter filter) {
   return "";
 }
 
+std::vector<Arm> arms_of(const Family& family, const std::filesystem::path& robots) {
+  if (!family.spatial) return {};
+  return family.solids ? real_arms(robots) : spatial_arms(robots);
+}
+
 std::string generated_name(const Family& family, std::uint64_t seed, int index) {
   return fmt::format("{}_s{}_{:05}", family.name, seed, index);
 }
@@ -288,9 +362,14 @@ GeneratedScenario generate(const Family& family, std::uint64_t seed, int index,
                            const std::vector<Arm>& spatial_arms, Rejections& rejections) {
   const auto number = static_cast<std::uint64_t>(&family - families().data());
   const auto place_in_family = static_cast<std::uint64_t>(index);
-  const Structure structure =
+  Structure structure =
       draw_structure(family, index, spatial_arms, RandomStream{seed, number, place_in_family, 0});
+  const bool random_arms = !family.planar && !family.spatial;
   for (std::uint64_t attempt = 1; attempt <= kAttempts; ++attempt) {
+    if (random_arms && attempt % kAttemptsOfAnArm == 0) {
+      RandomStream another{seed, number, place_in_family, attempt, 1};
+      structure.arm = random_arm(another);
+    }
     RandomStream random{seed, number, place_in_family, attempt};
     std::optional<Drawn> drawn = draw_scenario(family, structure, random, rejections);
     if (!drawn) continue;
@@ -301,9 +380,15 @@ GeneratedScenario generate(const Family& family, std::uint64_t seed, int index,
                     family.name, seed, index, kGeneratorVersion);
     return {draft.name, to_yaml(draft), drawn->witness};
   }
-  throw InputError(
-      fmt::format("{}: expected an arm that allows scenario {}, got none in {} attempts",
-                  family.name, index, kAttempts));
+  std::string counts;
+  for (int k = 0; k < kFilters; ++k) {
+    const auto filter = static_cast<Filter>(k);
+    counts +=
+        fmt::format("{}{} {}", counts.empty() ? "" : ", ", name_of(filter), rejections[filter]);
+  }
+  throw InputError(fmt::format(
+      "{}: expected an arm that allows scenario {}, got none in {} attempts; rejected: {}",
+      family.name, index, kAttempts, counts));
 }
 
 }  // namespace bqsa::harness

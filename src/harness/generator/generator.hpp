@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,21 +20,26 @@ inline constexpr int kGeneratorVersion = 2;
 
 enum class PathKind {
   kLineOrArc,      ///< well within reach
+  kReachingIn,     ///< a line outwards, nearly level
   kStretchingArc,  ///< out to 97 to 99.5 % of the reach, in the middle of the motion
 };
 
 enum class ObstacleKind {
-  kSome,    ///< one on an outer link of the nominal arm, up to three more there or near
-  kOne,     ///< one on an outer link
-  kMoving,  ///< one that meets an outer link on its way, sometimes one more at rest
-  kGap,     ///< two on both sides of an outer link, one of them on it
+  kSome,      ///< one on an outer link of the nominal arm, up to three more there or near
+  kOne,       ///< one on an outer link
+  kMoving,    ///< one that meets an outer link on its way, sometimes one more at rest
+  kGap,       ///< two on both sides of an outer link, one of them on it
+  kClutter,   ///< one on an outer link, up to nine more there or near
+  kCorridor,  ///< two walls on both sides of an outer link
+  kShelf,     ///< five boards around the end of the path
 };
 
 struct Family {
   std::string name;
   std::string summary;  ///< one line
   bool planar = false;
-  bool spatial = false;  ///< of both, even indices are planar
+  bool spatial = false;  ///< of both, even indices are planar; of neither, arms are random
+  bool solids = false;   ///< links are capsules and obstacles at rest solids
   PathKind paths = PathKind::kLineOrArc;
   ObstacleKind obstacles = ObstacleKind::kSome;
   bool witnesses = true;  ///< every problem has a known solution
@@ -53,7 +59,7 @@ enum class Filter {
   kLimits,         ///< an arm and path: the nominal motion exceeds a joint limit
   kTracking,       ///< an arm and path: the nominal motion exceeds the tolerance or a largest step
   kWitnessMotion,  ///< an arm and path: no witness keeps limits, steps and tolerance
-  kUnplaceable,    ///< an arm and path: one of its obstacles passed no filter in kPlacements tries
+  kUnplaceable,  ///< an arm and path: one of its obstacles passed no filter in kPlacements tries, or kPlacementsOfSolids
   kWitnessJudged,  ///< an arm, path and obstacles: the judge finds fault with the witness
   kStart,          ///< an obstacle: a link is too near at the start
   kTipPath,        ///< an obstacle: the tip's path is too near
@@ -63,6 +69,7 @@ enum class Filter {
 };
 inline constexpr int kFilters = 11;
 inline constexpr int kPlacements = 30;
+inline constexpr int kPlacementsOfSolids = 300;
 
 const char* name_of(Filter filter);
 
@@ -76,6 +83,11 @@ class Rejections {
   std::array<long, kFilters> counts_{};
 };
 
+/// The arms of a family's spatial scenarios, none if it has no such or draws them.
+/// @param robots  directory of robot files
+/// @throws InputError if a file that is needed cannot be used
+std::vector<Arm> arms_of(const Family& family, const std::filesystem::path& robots);
+
 struct GeneratedScenario {
   std::string name;  ///< generated_name()
   std::string yaml;  ///< the file
@@ -87,7 +99,7 @@ struct GeneratedScenario {
 std::string generated_name(const Family& family, std::uint64_t seed, int index);
 
 /// Scenario `index` of a family and seed: always the same bytes, whatever else is generated.
-/// @param spatial_arms  for a spatial family, used in turn; else may be empty
+/// @param spatial_arms  arms_of() the family, used in turn
 /// @param rejections    counted up
 /// @throws InputError if the arms allow no such problem
 GeneratedScenario generate(const Family& family, std::uint64_t seed, int index,

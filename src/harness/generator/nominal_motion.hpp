@@ -10,8 +10,9 @@
 namespace bqsa::harness {
 
 inline constexpr double kStartClearance =
-    0.010;                                      ///< of every link from every obstacle at t = 0 [m]
-inline constexpr double kTipClearance = 0.020;  ///< of the tip's path from every obstacle [m]
+    0.010;  ///< of every link from every obstacle at t = 0 [m]
+inline constexpr double kTipClearance =
+    0.020;  ///< of the tip's path, a ball of the last link's radius [m]
 inline constexpr double kInnerClearance = 0.010;  ///< of nominal links 1 and 2 at ticks [m]
 inline constexpr double kHitDepth = 0.001;  ///< least depth that is a hit of the nominal arm [m]
 inline constexpr int kFirstOuterLink = 3;   ///< number of the first link that is to be hit
@@ -25,17 +26,17 @@ class NominalMotion : public ArmMotion {
   bool path_within(const Eigen::Vector3d& center, double least, double most) const;
 
   /// Whether all links at the start are kStartClearance away from the obstacle.
-  bool start_is_clear(const Obstacle& obstacle) const;
+  bool start_is_clear(const PlacedShape& obstacle) const;
 
   /// Whether the straight lines between the desired tips of neighbouring ticks are kTipClearance
   /// away from the obstacle as it stands at either tick.
-  bool path_is_clear(const Obstacle& obstacle) const;
+  bool path_is_clear(const PlacedShape& obstacle) const;
 
   /// Whether the links before kFirstOuterLink are at all ticks kInnerClearance away.
-  bool inner_links_are_clear(const Obstacle& obstacle) const;
+  bool inner_links_are_clear(const PlacedShape& obstacle) const;
 
   /// Whether an outer link is kHitDepth deep in the obstacle at a tick.
-  bool outer_link_hits(const Obstacle& obstacle) const;
+  bool outer_link_hits(const PlacedShape& obstacle) const;
 
  private:
   std::vector<Eigen::Vector3d> desired_;  ///< at the ticks [m]

@@ -4,8 +4,10 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "harness/scenario/robot_reader.hpp"
+#include "harness/scenario/units.hpp"
 
 namespace bqsa::harness {
 
@@ -14,6 +16,13 @@ struct RobotFile {
   std::string description;
   std::string source;  ///< publication of the figures
   Robot robot;         ///< as the key `robot` of a scenario
+
+  Units units;  ///< of the file
+
+  /// What a scenario with this robot says of it: the keys `units` and `robot` as YAML, each line
+  /// ended.
+  std::string yaml;
+  std::vector<std::string> named;  ///< files that the key `robot` names, from the file's directory
 };
 
 /// Reads and validates one robot file, converting to SI units.

@@ -8,6 +8,9 @@
 #include <cmath>
 #include <utility>
 
+#include "bqsa/envelope/least_ellipsoid_around.hpp"
+#include "harness/scenario/yaml_value.hpp"
+
 namespace bqsa::harness {
 namespace {
 
@@ -52,7 +55,36 @@ std::string to_yaml(const MotionDraft& motion, int dimension) {
                                     : list(motion.angular_velocity));
 }
 
+/// The keys of a spatial shape other than an ellipsoid.
+std::string shape_keys(const ObstacleDraft& obstacle) {
+  const Vector3d& half = obstacle.semi_axes;
+  switch (obstacle.kind) {
+    case ShapeKind::kEllipsoid:
+      break;
+    case ShapeKind::kSphere:
+      return fmt::format("kind: sphere, center: {}, radius: {}", list(obstacle.center), half.x());
+    case ShapeKind::kBox:
+      return fmt::format("kind: box, center: {}, size: {}", list(obstacle.center),
+                         list(rounded(Vector3d(2 * half))));
+    case ShapeKind::kCylinder:
+      return fmt::format("kind: cylinder, center: {}, radius: {}, length: {}",
+                         list(obstacle.center), half.x(), rounded(2 * half.z()));
+    case ShapeKind::kCapsule:
+      return fmt::format("kind: capsule, center: {}, radius: {}, length: {}", list(obstacle.center),
+                         half.x(), rounded(2 * (half.z() - half.x())));
+  }
+  return fmt::format("kind: ellipsoid, center: {}, semi_axes: {}", list(obstacle.center),
+                     list(half));
+}
+
 std::string to_yaml(const ObstacleDraft& obstacle, int dimension) {
+  if (obstacle.kind != ShapeKind::kEllipsoid) {
+    return fmt::format("  - {{name: {}, {}{}{}}}\n", obstacle.name, shape_keys(obstacle),
+                       obstacle.kind == ShapeKind::kSphere
+                           ? ""
+                           : fmt::format(", quaternion: {}", list(obstacle.rotation)),
+                       obstacle.motion ? to_yaml(*obstacle.motion, dimension) : "");
+  }
   const std::string rotation = dimension == 2
                                    ? fmt::format("rotation: {}", obstacle.rotation(0))
                                    : fmt::format("quaternion: {}", list(obstacle.rotation));
@@ -75,14 +107,18 @@ std::string to_yaml(const JointLimits& limits) {
 }
 
 /// The mapping `robot`, its numbers with as many digits as bring them back.
-std::string to_yaml(const ChainDescription& robot, const JointLimits& limits) {
+std::string robot_yaml(const ScenarioDraft& draft) {
+  const ChainDescription& robot = draft.robot;
+  const JointLimits& limits = draft.limits;
   if (robot.dimension == 2) {
     std::vector<double> lengths;
     for (const DhRow& row : robot.rows) lengths.push_back(row.a);
     return fmt::format("robot: {{kind: planar, links: {}{}}}\n", list(lengths), to_yaml(limits));
   }
-  std::string text = fmt::format("robot:\n  kind: {}\n  joints:\n",
+  std::string text = fmt::format("robot:\n  kind: {}\n",
                                  robot.convention == DhConvention::kModified ? "mdh" : "dh");
+  if (!draft.robot_name.empty()) text += fmt::format("  name: {}\n", quoted_yaml(draft.robot_name));
+  text += "  joints:\n";
   for (std::size_t j = 0; j < robot.rows.size(); ++j) {
     const DhRow& row = robot.rows[j];
     const auto i = static_cast<Eigen::Index>(j);
@@ -91,7 +127,9 @@ std::string to_yaml(const ChainDescription& robot, const JointLimits& limits) {
         row.a, row.alpha, row.d, row.offset, limits.lower(i), limits.upper(i),
         limits.max_velocity(i));
   }
-  return text + fmt::format("  tool: {}\n", list(robot.p_LT));
+  text += fmt::format("  tool: {}\n", list(robot.p_LT));
+  if (!draft.link_radii.empty()) text += fmt::format("  link_radius: {}\n", list(draft.link_radii));
+  return text;
 }
 
 }  // namespace
@@ -130,6 +168,22 @@ Obstacle to_obstacle(const ObstacleDraft& draft, int dimension, int ticks, doubl
   return obstacle;
 }
 
+Solid to_solid(const ObstacleDraft& draft) {
+  const Eigen::Vector4d wxyz = draft.rotation / draft.rotation.norm();
+  const Eigen::Matrix3d R =
+      Eigen::Quaterniond(wxyz(0), wxyz(1), wxyz(2), wxyz(3)).toRotationMatrix();
+  const Vector3d& half = draft.semi_axes;
+  if (draft.kind == ShapeKind::kBox) {
+    return Box{.center = draft.center, .half_lengths = half, .rotation = R};
+  }
+  const bool capsule = draft.kind == ShapeKind::kCapsule;
+  const Vector3d axis = (capsule ? half.z() - half.x() : half.z()) * R.col(2);
+  const Vector3d a = draft.center - axis;
+  const Vector3d b = draft.center + axis;
+  if (capsule) return Capsule{.a = a, .b = b, .radius = half.x()};
+  return Cylinder{.a = a, .b = b, .radius = half.x()};
+}
+
 Problem to_problem(const ScenarioDraft& draft) {
   const Path path = std::visit([](const auto& any) -> Path { return to_path(any); }, draft.path);
   Problem problem{.name = draft.name,
@@ -142,11 +196,29 @@ Problem to_problem(const ScenarioDraft& draft) {
                   .dt = draft.duration / draft.ticks,
                   .start = draft.start,
                   .limits = draft.limits};
+  problem.link_radii = draft.link_radii;
+  for (const double radius : draft.link_radii) {
+    problem.link_radius = std::max(problem.link_radius, radius);
+  }
   for (const ObstacleDraft& obstacle : draft.obstacles) {
-    problem.obstacles.push_back(
-        to_obstacle(obstacle, problem.dimension(), problem.ticks, problem.dt));
+    if (is_solid(obstacle.kind)) {
+      problem.obstacles.push_back({obstacle.name, least_ellipsoid_around(to_solid(obstacle))});
+    } else {
+      problem.obstacles.push_back(
+          to_obstacle(obstacle, problem.dimension(), problem.ticks, problem.dt));
+    }
   }
   return problem;
+}
+
+std::vector<TrueObstacle> to_truth(const ScenarioDraft& draft) {
+  std::vector<TrueObstacle> truth;
+  for (const ObstacleDraft& obstacle : draft.obstacles) {
+    TrueObstacle real{.name = obstacle.name, .first = static_cast<int>(truth.size())};
+    if (is_solid(obstacle.kind)) real.parts = {to_solid(obstacle)};
+    truth.push_back(real);
+  }
+  return truth;
 }
 
 std::string to_yaml(const ScenarioDraft& draft) {
@@ -154,12 +226,15 @@ std::string to_yaml(const ScenarioDraft& draft) {
   std::string text = fmt::format(
       "schema: bqsa-scenario/1\nname: {}\ndescription: {}\nunits: {{length: m, angle: rad}}\n",
       draft.name, draft.description);
-  text += to_yaml(draft.robot, draft.limits);
+  text += robot_yaml(draft);
   text += fmt::format(
       "start: {}\ntask:\n  path: {}\n  timing: {{duration: {}, ticks: {}, profile: quintic}}\n",
       list(draft.start),
       std::visit([dimension](const auto& any) { return to_yaml(any, dimension); }, draft.path),
       draft.duration, draft.ticks);
+  if (draft.reference_clearance) {
+    text += fmt::format("reference_clearance: {}\n", *draft.reference_clearance);
+  }
   text += "obstacles:\n";
   for (const ObstacleDraft& obstacle : draft.obstacles) text += to_yaml(obstacle, dimension);
   return text;

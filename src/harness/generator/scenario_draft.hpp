@@ -8,7 +8,9 @@
 #include <variant>
 #include <vector>
 
+#include "bqsa/envelope/solid.hpp"
 #include "bqsa/problem.hpp"
+#include "harness/judge/true_obstacle.hpp"
 #include "harness/scenario/path.hpp"
 
 namespace bqsa::harness {
@@ -46,10 +48,21 @@ struct MotionDraft {
   Eigen::Vector3d angular_velocity;  ///< [rad/s]; planar: about z
 };
 
+enum class ShapeKind { kEllipsoid, kSphere, kBox, kCylinder, kCapsule };
+
+/// Whether methods are told of something else, an envelope.
+inline bool is_solid(ShapeKind kind) {
+  return kind != ShapeKind::kEllipsoid && kind != ShapeKind::kSphere;
+}
+
 struct ObstacleDraft {
   std::string name = {};
-  Eigen::Vector3d center;     ///< at t = 0 [m]
-  Eigen::Vector3d semi_axes;  ///< planar: two, and the larger of them again [m]
+  ShapeKind kind = ShapeKind::kEllipsoid;
+  Eigen::Vector3d center;  ///< at t = 0 [m]
+
+  /// How far the shape extends along its own axes either way; planar: two, and the larger of them
+  /// again. Of a sphere all are the same, of a cylinder and a capsule the first two [m].
+  Eigen::Vector3d semi_axes;
   Eigen::Vector4d
       rotation;  ///< at t = 0: quaternion (w, x, y, z), or for planar (angle, 0, 0, 0) [rad]
   std::optional<MotionDraft> motion = {};
@@ -61,21 +74,31 @@ struct ScenarioDraft {
   std::string description = {};
   ChainDescription robot;
   JointLimits limits = {};
-  JointVector start = {};  ///< [rad]
+  std::vector<double> link_radii = {};  ///< none: links have no radius [m]
+  std::string robot_name = {};          ///< of a spatial robot; none: the file names no robot
+  JointVector start = {};               ///< [rad]
   PathDraft path = {};
   double duration = 0;  ///< [s]
   int ticks = 0;
   std::vector<ObstacleDraft> obstacles = {};
+  std::optional<double> reference_clearance = {};  ///< key of that name [m]
 };
 
-/// The shape of an obstacle at time t [s].
+/// The ellipsoid or sphere of an obstacle at time t [s].
 Ellipsoid shape_at(const ObstacleDraft& obstacle, int dimension, double t);
 
-/// The obstacle as the loader makes it from the file.
+/// The obstacle as the loader makes it from the file; of ellipsoids and spheres.
 Obstacle to_obstacle(const ObstacleDraft& draft, int dimension, int ticks, double dt);
 
-/// The problem as the loader makes it from the file.
+/// The obstacle as the loader makes it from the file; of the other kinds.
+Solid to_solid(const ObstacleDraft& draft);
+
+/// The problem as the loader makes it from the file, but with one ellipsoid around each solid, where the
+/// loader may make several.
 Problem to_problem(const ScenarioDraft& draft);
+
+/// What the judge goes by in that problem.
+std::vector<TrueObstacle> to_truth(const ScenarioDraft& draft);
 
 /// The file of schema bqsa-scenario/1, in metres and radians.
 std::string to_yaml(const ScenarioDraft& draft);

@@ -5,7 +5,6 @@
 
 #include "bqsa/tip_closure.hpp"
 #include "harness/generator/scenario_draft.hpp"
-#include "harness/judge/judge.hpp"
 
 namespace bqsa::harness {
 namespace {
@@ -55,7 +54,7 @@ ArmMotion follow(const Problem& problem, const SelfMotion& motion) {
     solve_hybrid_ik(J, x_dot, no_weights, phi, settings.ik, ik);
     q += problem.dt * ik.q_dot;
     chain.forward(q, pose);
-    close_tip(chain, desired, problem.dt, settings, q, pose, counters);
+    close_tip(TipTask(chain), desired, problem.dt, settings, q, pose, counters);
     rows.push_back(rounded(q));
   }
   return {problem, rows};
@@ -71,15 +70,11 @@ std::optional<ArmMotion> draw_witness(const Problem& problem, RandomStream& rand
   return std::nullopt;
 }
 
-bool keeps_clear(const ArmMotion& witness, const Obstacle& obstacle) {
+bool keeps_clear(const ArmMotion& witness, const PlacedShape& obstacle) {
   for (int tick = 0; tick <= witness.problem().ticks; ++tick) {
     if (!witness.is_clear(tick, obstacle, kWitnessClearance)) return false;
   }
   return true;
-}
-
-bool solves(const ArmMotion& witness, const Problem& problem) {
-  return Judge(problem).judge(witness.trajectory()).success();
 }
 
 }  // namespace bqsa::harness

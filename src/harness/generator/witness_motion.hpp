@@ -23,9 +23,6 @@ inline constexpr int kWitnessDraws = 10;
 std::optional<ArmMotion> draw_witness(const Problem& problem, RandomStream& random);
 
 /// Whether every link is kWitnessClearance away from the obstacle at all ticks.
-bool keeps_clear(const ArmMotion& witness, const Obstacle& obstacle);
-
-/// Whether the judge calls the motion a success in the problem with its obstacles.
-bool solves(const ArmMotion& witness, const Problem& problem);
+bool keeps_clear(const ArmMotion& witness, const PlacedShape& obstacle);
 
 }  // namespace bqsa::harness

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "harness/judge/closest_point_search.hpp"
+
 namespace bqsa::harness {
 namespace {
 
@@ -15,19 +17,7 @@ using Eigen::Vector3d;
 /// underflow.
 constexpr double kThinnest = 1e-30;
 
-/// Where the bracketing search stops: the proven gap to the minimum, relative to the size.
-constexpr double kGap = 1e-15;
-
-/// Each of the searches halves its bracket at least every third step and ends long before this.
-constexpr int kMaxIterations = 300;
-
-/// The nearest point of the ellipsoid to an outside point, axes along the coordinates.
-struct Nearest {
-  Vector3d offset;  ///< from the ellipsoid to the point
-  Vector3d normal;  ///< outward, unit; keeps its accuracy when the offset vanishes
-  double distance;
-};
-
+/// The nearest point of the ellipsoid with its axes along the coordinates to an outside point.
 /// Solves the secular equation sum (a_i p_i / (a_i² + l))² = 1 for l >= 0; the nearest point is
 /// a_i² p_i / (a_i² + l). Newton's method on 1 / sqrt(sum) = 1, which is concave and increasing in
 /// l (and linear for a sphere), rises to the root without overshooting; the bracket guards
@@ -38,7 +28,7 @@ Nearest nearest(const Vector3d& p, const Vector3d& a) {
   double low = std::max(0.0, (w - squares).maxCoeff());
   double high = std::max(low, w.norm() - squares.minCoeff());
   double l = low;
-  for (int k = 0; k < kMaxIterations && low < high; ++k) {
+  for (int k = 0; k < kMaxSearchSteps && low < high; ++k) {
     const Vector3d inverse = (squares.array() + l).inverse();
     const Vector3d terms = w.cwiseProduct(inverse).cwiseAbs2();
     const double sum = terms.sum();
@@ -92,78 +82,6 @@ void separate(const Vector3d& p, const Vector3d& q, const Vector3d& at, const Ve
   result.depth = std::max(result.depth, 0.0);
 }
 
-/// A point of the segment, with the derivative of the distance there.
-struct Sample {
-  double t;
-  Nearest nearest;
-  double slope;
-
-  double distance() const { return nearest.distance; }
-  double half_square_slope() const { return slope * nearest.distance; }
-};
-
-/// Minimises the convex t -> distance(P(t)) over [0, 1] by bracketing its derivative d . normal.
-/// @param guess  where to look first
-void minimise(const Vector3d& p, const Vector3d& d, const Vector3d& a, double guess,
-              SegmentDistance& result) {
-  const auto sample = [&](double t) {
-    const Nearest n = nearest(p + t * d, a);
-    return Sample{t, n, d.dot(n.normal)};
-  };
-  Sample low = sample(0);
-  Sample high = low.slope < 0 ? sample(1) : low;
-  if (low.slope < 0 && high.slope > 0) {
-    double t = guess;
-    double low_weight = low.half_square_slope();
-    double high_weight = high.half_square_slope();
-    double width = 2;
-    int replaced = 0;  // the end that the last step moved
-    for (int k = 0; k < kMaxIterations; ++k) {
-      // Where the tangents at both ends meet bounds the minimum from below.
-      const double rise = low.distance() - high.distance() + high.slope * (high.t - low.t);
-      const double bound = low.distance() + low.slope * rise / (high.slope - low.slope);
-      if (std::min(low.distance(), high.distance()) - bound <= kGap) break;
-      if (k % 3 == 2) {
-        if (high.t - low.t > width / 2) t = low.t + (high.t - low.t) / 2;
-        width = high.t - low.t;
-      }
-      if (!(t > low.t && t < high.t)) t = low.t + (high.t - low.t) / 2;
-      if (!(t > low.t && t < high.t)) break;  // neighbouring numbers
-      const Sample middle = sample(t);
-      const double weight = middle.half_square_slope();
-      // Regula falsi; an end that stays twice is shrunk by the rule of Anderson and Bjorck.
-      if (middle.slope <= 0) {
-        const double shrink = 1 - weight / low_weight;
-        if (replaced < 0) high_weight *= shrink > 0 ? shrink : 0.5;
-        replaced = -1;
-        low = middle;
-        low_weight = weight;
-        if (middle.slope == 0) break;
-      } else {
-        const double shrink = 1 - weight / high_weight;
-        if (replaced > 0) low_weight *= shrink > 0 ? shrink : 0.5;
-        replaced = 1;
-        high = middle;
-        high_weight = weight;
-      }
-      t = low.t - (high.t - low.t) * low_weight / (high_weight - low_weight);
-    }
-  } else {
-    low = high;  // the minimum is at this end
-  }
-  const Sample& best = low.distance() < high.distance() ? low : high;
-  // The mean of both normals that is perpendicular to the segment gives the plane that proves the
-  // bound of the tangents.
-  const double steepness = high.slope - low.slope;
-  const double share = steepness > 0 ? -low.slope / steepness : 0;
-  result.t = best.t;
-  result.distance = best.distance();
-  result.normal =
-      ((1 - share) * low.nearest.normal + share * high.nearest.normal).stableNormalized();
-  result.on_segment = p + best.t * d;
-  result.on_ellipsoid = result.on_segment - best.nearest.offset;
-}
-
 }  // namespace
 
 SegmentDistance exact_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
@@ -184,7 +102,13 @@ SegmentDistance exact_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& 
   if (result.on_segment.cwiseQuotient(axes).squaredNorm() <= 1) {
     separate(p, q, result.on_segment, axes, result);
   } else {
-    minimise(p, d, axes, result.t, result);
+    const ClosestPoint closest =
+        closest_point(p, d, result.t, [&axes](const Vector3d& x) { return nearest(x, axes); });
+    result.t = closest.t;
+    result.distance = closest.distance;
+    result.normal = closest.normal;
+    result.on_segment = p + closest.t * d;
+    result.on_ellipsoid = result.on_segment - closest.offset;
   }
   result.distance *= size;
   result.depth *= size;

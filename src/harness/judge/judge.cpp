@@ -9,17 +9,20 @@
 #include <set>
 #include <utility>
 
+#include "harness/judge/fcl_links.hpp"
 #include "harness/judge/motion_check.hpp"
+#include "harness/judge/self_check.hpp"
 
 namespace bqsa::harness {
 namespace {
 
+using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double kAngleSlack = 1e-9;     // rounding of joint angles that is forgiven [rad]
+constexpr double kJointSlack = 1e-9;     // rounding of joint values that is forgiven [rad, m]
 constexpr double kRelativeSlack = 1e-9;  // the same of times and joint steps, as a part of them
-constexpr int kTipSamples = 10;          // tip errors between two ticks
+constexpr int kTipSamples = 10;          // errors of the tip between two ticks
 
 /// The rows that can be judged: finite, of the right width, and no more than the problem has.
 std::vector<VectorXd> judgeable_rows(const Problem& problem, const Trajectory& trajectory,
@@ -51,23 +54,26 @@ std::vector<VectorXd> judgeable_rows(const Problem& problem, const Trajectory& t
 
 void check_joints(const Problem& problem, const std::vector<VectorXd>& rows, Judgement& judgement,
                   std::set<Failure>& failures) {
-  if ((rows[0] - problem.start).cwiseAbs().maxCoeff() > kAngleSlack) {
+  if ((rows[0] - problem.start).cwiseAbs().maxCoeff() > kJointSlack) {
     failures.insert(Failure::kWrongStart);
   }
   const JointLimits& limits = problem.limits;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     for (int j = 0; j < rows[k].size(); ++j) {
       const double q = rows[k](j);
-      if ((limits.lower.size() > 0 && q < limits.lower(j) - kAngleSlack) ||
-          (limits.upper.size() > 0 && q > limits.upper(j) + kAngleSlack)) {
+      if ((limits.lower.size() > 0 && q < limits.lower(j) - kJointSlack) ||
+          (limits.upper.size() > 0 && q > limits.upper(j) + kJointSlack)) {
         failures.insert(Failure::kJointLimit);
       }
       if (k == 0) continue;
       const double step = std::abs(q - rows[k - 1](j));
       if (step > problem.max_step(j) * (1 + kRelativeSlack)) failures.insert(Failure::kJump);
-      if (step > judgement.max_joint_step) {
-        judgement.max_joint_step = step;
-        judgement.max_joint_step_tick = static_cast<int>(k);
+      const bool slides = problem.chain.description().is_prismatic(j);
+      double& largest = slides ? judgement.max_joint_slide : judgement.max_joint_step;
+      if (step > largest) {
+        largest = step;
+        (slides ? judgement.max_joint_slide_tick : judgement.max_joint_step_tick) =
+            static_cast<int>(k);
       }
     }
   }
@@ -128,6 +134,36 @@ void check_tip(const Problem& problem, const JudgeKinematics& kinematics,
   if (!(judgement.at_ticks.max <= problem.tolerance)) failures.insert(Failure::kDrift);
 }
 
+void check_orientation(const Problem& problem, const JudgeKinematics& kinematics,
+                       const std::vector<VectorXd>& rows, Judgement& judgement,
+                       std::set<Failure>& failures) {
+  if (!problem.has_orientation()) return;
+  const auto add = [&](const VectorXd& q, double time, int tick, double weight,
+                       OrientationError& error) {
+    const double angle = angle_away(problem.task_kind, problem.desired_rotation(time * problem.dt),
+                                    kinematics.tip_rotation(q));
+    error.mean += weight * angle;
+    if (angle > error.max) {
+      error.max = angle;
+      error.max_tick = tick;
+    }
+  };
+  const double motions = static_cast<double>(rows.size()) - 1;
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    const int tick = static_cast<int>(k);
+    add(rows[k], tick, tick, 1 / motions, judgement.orientation_at_ticks);
+    if (k == 1) continue;  // this motion leads from the start onto the path
+    for (int sample = 1; sample <= kTipSamples; ++sample) {
+      const double s = static_cast<double>(sample) / (kTipSamples + 1);
+      add(between(rows[k - 1], rows[k], s), tick - 1 + s, tick, 1 / ((motions - 1) * kTipSamples),
+          judgement.orientation_between_ticks);
+    }
+  }
+  if (!(judgement.orientation_at_ticks.max <= problem.orientation_tolerance)) {
+    failures.insert(Failure::kOrientation);
+  }
+}
+
 /// Follows the links through the whole run, tick by tick and motion by motion.
 class CollisionCheck {
  public:
@@ -147,7 +183,7 @@ class CollisionCheck {
     }
     judgement_.clearance = std::min(judgement_.clearance, judgement_.clearance_at_ticks);
     if (contacts_.empty() && failures_.count(Failure::kUndecided) == 0) find_clearance(rows);
-    for (const auto& [names, contact] : contacts_) judgement_.contacts.push_back(contact);
+    for (const auto& [pair, contact] : contacts_) judgement_.contacts.push_back(contact);
     std::stable_sort(
         judgement_.contacts.begin(), judgement_.contacts.end(),
         [](const Contact& a, const Contact& b) { return a.first_tick < b.first_tick; });
@@ -165,6 +201,7 @@ class CollisionCheck {
   /// Reads all pairs; returns their clearances.
   std::vector<double> check_tick(const VectorXd& q, int tick) {
     std::vector<double> clearances;
+    std::set<const Contact*> hit;  // once for all parts of an obstacle
     scene_.kinematics().place(q, positions_);
     for (const LinkObstaclePair& pair : scene_.pairs()) {
       const PairReading reading =
@@ -177,7 +214,7 @@ class CollisionCheck {
       if (reading.clearance < -Judge::kTouching) {
         Contact& contact = contact_of(pair, tick);
         contact.at_tick = true;
-        ++contact.ticks;
+        if (hit.insert(&contact).second) ++contact.ticks;
       } else if (reading.clearance <= Judge::kTouching) {
         judgement_.touching = true;
       }
@@ -260,9 +297,10 @@ class CollisionCheck {
   }
 
   Contact& contact_of(const LinkObstaclePair& pair, int tick) {
-    const Contact fresh{
-        .link = scene_.link(pair).number, .obstacle = pair.obstacle, .first_tick = tick};
-    return contacts_.try_emplace({fresh.link, fresh.obstacle}, fresh).first->second;
+    const Contact fresh{.link = scene_.link(pair).number,
+                        .obstacle = scene_.obstacle_name(pair),
+                        .first_tick = tick};
+    return contacts_.try_emplace({fresh.link, scene_.obstacle(pair)}, fresh).first->second;
   }
 
   const LinkScene& scene_;
@@ -270,14 +308,47 @@ class CollisionCheck {
   Judgement& judgement_;
   std::set<Failure>& failures_;
   PointPositions positions_;
-  std::map<std::pair<int, int>, Contact> contacts_;
+  std::map<std::pair<int, int>, Contact> contacts_;  // by link and obstacle
   std::vector<Approach> approaches_;
   long visits_left_ = 0;
 };
 
+void check_links(const SelfScene& scene, const std::vector<VectorXd>& rows, Judgement& judgement,
+                 std::set<Failure>& failures) {
+  const SelfVerdict verdict =
+      check_self_collision(scene, rows, Judge::visits_of_a_run(rows.size()));
+  judgement.self_contacts = verdict.contacts;
+  judgement.self_clearance_at_ticks = verdict.clearance_at_ticks;
+  judgement.touching = judgement.touching || verdict.touching;
+  if (judgement.disagreement.empty()) judgement.disagreement = verdict.disagreement;
+  if (!verdict.disagreement.empty()) failures.insert(Failure::kDisagreement);
+  if (!verdict.contacts.empty()) failures.insert(Failure::kSelfCollision);
+  if (verdict.undecided) failures.insert(Failure::kUndecided);
+}
+
 }  // namespace
 
-Judge::Judge(const Problem& problem) : problem_(problem), scene_(problem) { FclCheck::self_test(); }
+double angle_away(TaskKind kind, const Matrix3d& desired, const Matrix3d& R) {
+  if (kind == TaskKind::kAxis) {
+    const Vector3d a = desired.col(2), b = R.col(2);
+    return 2 * std::atan2((a - b).norm(), (a + b).norm());
+  }
+  // Of a rotation by an angle, |T - Tᵀ| = sqrt(8) sin(angle) in the Frobenius norm.
+  const Matrix3d T = desired.transpose() * R;
+  return std::atan2((T - T.transpose()).norm() / std::sqrt(8.0), (T.trace() - 1) / 2);
+}
+
+Judge::Judge(const Problem& problem, const std::optional<SelfCollision>& self_collision)
+    : Judge(problem, ellipsoids_as_told(problem), self_collision) {}
+
+Judge::Judge(const Problem& problem, const std::vector<TrueObstacle>& truth,
+             const std::optional<SelfCollision>& self_collision)
+    : problem_(problem), scene_(problem, truth) {
+  FclCheck::self_test();
+  if (!self_collision) return;
+  fcl_links_self_test();
+  self_scene_.emplace(problem, *self_collision);
+}
 
 Judgement Judge::judge(const Trajectory& trajectory) const {
   Judgement judgement;
@@ -287,7 +358,9 @@ Judgement Judge::judge(const Trajectory& trajectory) const {
   if (!rows.empty()) {
     check_joints(problem_, rows, judgement, failures);
     check_tip(problem_, scene_.kinematics(), rows, judgement, failures);
+    check_orientation(problem_, scene_.kinematics(), rows, judgement, failures);
     CollisionCheck(scene_, judgement, failures).run(rows);
+    if (self_scene_) check_links(*self_scene_, rows, judgement, failures);
   }
   judgement.failures.assign(failures.begin(), failures.end());
   return judgement;
@@ -315,6 +388,8 @@ const char* name_of(Failure failure) {
       return "wrong_start";
     case Failure::kCollision:
       return "collision";
+    case Failure::kSelfCollision:
+      return "self_collision";
     case Failure::kUndecided:
       return "undecided";
     case Failure::kJump:
@@ -323,6 +398,8 @@ const char* name_of(Failure failure) {
       return "joint_limit";
     case Failure::kDrift:
       return "drift";
+    case Failure::kOrientation:
+      return "orientation";
   }
   return "unknown";
 }

@@ -43,10 +43,21 @@ JudgeKinematics::JudgeKinematics(const ChainDescription& chain)
   base_.topLeftCorner<3, 3>() = chain.R_WB;
   base_.topRightCorner<3, 1>() = chain.p_WB;
   tool_ << chain.p_LT, 1;
+  tool_rotation_ = chain.R_LT;
 
-  const bool modified = chain.convention == DhConvention::kModified;
   std::vector<double> lengths;  // of link i, between points i - 1 and i
+  std::vector<double> own;      // distance of point j + 1 from the axis of joint j
+  for (const JointPlacement& placement : chain.placements) {
+    Matrix4d X = Matrix4d::Identity();
+    X.topLeftCorner<3, 3>() = placement.R_PJ;
+    X.topRightCorner<3, 1>() = placement.p_PJ;
+    rows_.push_back({X, Matrix4d::Identity(), 0, placement.type == JointType::kPrismatic});
+    lengths.push_back(placement.p_PJ.norm());
+    own.push_back(0);
+  }
   for (const DhRow& row : chain.rows) {
+    const bool modified = chain.convention == DhConvention::kModified;
+    own.push_back(modified ? 0 : std::abs(row.a));
     if (modified) {
       rows_.push_back({turn_about_x(row.alpha) * shift(row.a, 0), shift(0, row.d), row.offset});
     } else {
@@ -57,15 +68,16 @@ JudgeKinematics::JudgeKinematics(const ChainDescription& chain)
   }
   if (has_tool_) lengths.push_back(chain.p_LT.norm());
   for (int i = 0; i + 1 < points(); ++i) {
-    if (lengths[static_cast<std::size_t>(i)] > 0) links_.push_back({i + 1, i, i + 1});
+    const bool varies = i < joints() && is_prismatic(i);
+    if (varies || lengths[static_cast<std::size_t>(i)] > 0) links_.push_back({i + 1, i, i + 1});
   }
 
-  // The axis of joint j passes through point j (standard) or point j + 1 (modified); the lengths
-  // from there to a point bound its distance to the axis. The first standard row goes by d along
-  // the axis itself.
+  // The axis of joint j passes through point j (standard) or point j + 1 (modified, placements); the
+  // lengths from there to a point bound its distance to the axis. The first standard row goes by d
+  // along the axis itself.
   reach_ = Eigen::MatrixXd::Zero(joints(), points());
   for (int j = 0; j < joints(); ++j) {
-    double sum = modified ? 0 : std::abs(chain.rows[static_cast<std::size_t>(j)].a);
+    double sum = own[static_cast<std::size_t>(j)];
     reach_(j, j + 1) = sum;
     for (int k = j + 2; k < points(); ++k) {
       sum += lengths[static_cast<std::size_t>(k - 1)];
@@ -85,10 +97,24 @@ void JudgeKinematics::place(const Eigen::VectorXd& q, PointPositions& positions)
     X = X * row.before;
     positions.axes.push_back(X.block<3, 1>(0, 2));
     positions.pivots.push_back(X.topRightCorner<3, 1>());
-    X = X * turn_about_z(q(j) + row.offset) * row.after;
+    X = X * moved(row, q(j)) * row.after;
     positions.points.push_back(X.topRightCorner<3, 1>());
   }
   if (has_tool_) positions.points.push_back((X * tool_).head<3>());
+}
+
+/// The joint's own motion.
+Eigen::Matrix4d JudgeKinematics::moved(const Row& row, double q) {
+  return row.prismatic ? shift(0, q) : turn_about_z(q + row.offset);
+}
+
+Eigen::Matrix3d JudgeKinematics::tip_rotation(const Eigen::VectorXd& q) const {
+  Matrix4d X = base_;
+  for (int j = 0; j < joints(); ++j) {
+    const Row& row = rows_[static_cast<std::size_t>(j)];
+    X = X * row.before * moved(row, q(j)) * row.after;
+  }
+  return X.topLeftCorner<3, 3>() * tool_rotation_;
 }
 
 Eigen::Vector3d JudgeKinematics::velocity(const PointPositions& positions,
@@ -97,9 +123,24 @@ Eigen::Vector3d JudgeKinematics::velocity(const PointPositions& positions,
   Vector3d sum = Vector3d::Zero();
   for (int j = 0; j < joints() && j < point; ++j) {
     const auto joint = static_cast<std::size_t>(j);
-    sum += rates(j) * positions.axes[joint].cross(positions.points[at] - positions.pivots[joint]);
+    const Vector3d& axis = positions.axes[joint];
+    if (is_prismatic(j)) {
+      sum += rates(j) * axis;
+    } else {
+      sum += rates(j) * axis.cross(positions.points[at] - positions.pivots[joint]);
+    }
   }
   return sum;
+}
+
+double JudgeKinematics::speed_bound(int joint, int point, const Eigen::VectorXd& travel) const {
+  if (joint >= point) return 0;
+  if (is_prismatic(joint)) return 1;
+  double bound = reach(joint, point);
+  for (int i = joint + 1; i < joints() && i < point; ++i) {
+    if (is_prismatic(i)) bound += travel(i);
+  }
+  return bound;
 }
 
 }  // namespace bqsa::harness

@@ -5,13 +5,16 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "bqsa/problem.hpp"
+#include "harness/judge/exact_solid.hpp"
 #include "harness/judge/fcl_check.hpp"
 #include "harness/judge/judge_kinematics.hpp"
 #include "harness/judge/obstacle_track.hpp"
+#include "harness/judge/true_obstacle.hpp"
 
 namespace bqsa::harness {
 
@@ -39,7 +42,9 @@ std::string contradiction(double exact_clearance, const FclAnswer& fcl, double s
 /// The same where FCL was asked for its verdict alone.
 std::string contradiction(double exact_clearance, bool fcl_hit);
 
-/// A link and an obstacle, as indices into LinkScene::links() and Problem::obstacles.
+/// A link and a convex body, which is an obstacle or a part of one. Indices into
+/// JudgeKinematics::links() and the bodies of a LinkScene: first the obstacles that are ellipsoids,
+/// then the parts of the others.
 struct LinkObstaclePair {
   int link = 0;
   int obstacle = 0;
@@ -57,8 +62,13 @@ enum class FclQuestion { kHit, kHitAndDistance };
 
 class LinkScene {
  public:
-  /// The problem's description, obstacles and radius are copied.
-  /// @throws std::invalid_argument as ObstacleTrack
+  /// The problem's description, obstacles and radii are copied.
+  /// @param truth  of the problem's obstacles
+  /// @throws std::invalid_argument as ObstacleTrack; if an obstacle that is not an ellipsoid turns; or
+  ///   if the truth is not of all obstacles, in their order
+  LinkScene(const Problem& problem, const std::vector<TrueObstacle>& truth);
+
+  /// Of obstacles that are the ellipsoids that methods are told of.
   explicit LinkScene(const Problem& problem);
 
   const JudgeKinematics& kinematics() const { return kinematics_; }
@@ -68,12 +78,22 @@ class LinkScene {
   const ObstacleTrack& track(const LinkObstaclePair& pair) const {
     return tracks_[static_cast<std::size_t>(pair.obstacle)];
   }
-  double link_radius() const { return link_radius_; }
+  double link_radius(const LinkObstaclePair& pair) const {
+    return link_radii_[static_cast<std::size_t>(pair.link)];
+  }
+
+  /// The obstacle that the pair's body is or belongs to, as an index into the truth, and its name.
+  int obstacle(const LinkObstaclePair& pair) const {
+    return obstacle_of_[static_cast<std::size_t>(pair.obstacle)];
+  }
+  const std::string& obstacle_name(const LinkObstaclePair& pair) const {
+    return names_[static_cast<std::size_t>(pair.obstacle)];
+  }
 
   /// The pair in words, as `link 3, obstacle ball`.
   std::string show(const LinkObstaclePair& pair) const;
 
-  /// All pairs of a link and an obstacle.
+  /// All pairs of a link and a body.
   const std::vector<LinkObstaclePair>& pairs() const { return pairs_; }
 
   /// Reads a pair by the exact distance and by FCL. To both, a moving obstacle stands where it was
@@ -82,12 +102,19 @@ class LinkScene {
                    const Instant& instant, FclQuestion question) const;
 
  private:
+  PairReading read_solid(const Eigen::Vector3d& start, const Eigen::Vector3d& end,
+                         const LinkObstaclePair& pair, const Instant& instant,
+                         FclQuestion question) const;
+
   JudgeKinematics kinematics_;
-  std::vector<std::string> names_;    // of the obstacles
-  std::vector<Ellipsoid> obstacles_;  // at t = 0
-  std::vector<ObstacleTrack> tracks_;
-  double link_radius_;
-  FclCheck fcl_;
+  std::vector<std::string> names_;     // by body: of the obstacle
+  std::vector<int> obstacle_of_;       // by body
+  std::vector<ObstacleTrack> tracks_;  // by body: of an ellipsoid around the obstacle
+  std::vector<Ellipsoid> obstacles_;   // those bodies that are ellipsoids, at t = 0
+  std::vector<ExactSolid> solids_;     // the others
+  std::vector<double> link_radii_;
+  std::map<double, FclCheck> fcl_;  // by the radius of a link
+  std::vector<const FclCheck*> fcl_of_link_;
   std::vector<LinkObstaclePair> pairs_;
 };
 

@@ -16,30 +16,6 @@ constexpr double kResolution = Judge::kTouching / 16;
 /// Half an interval of this depth is lost beside 1 in double precision.
 constexpr int kMaxDepth = 50;
 
-/// Bounds of the speed and the acceleration of each point of the chain, for s in [0, 1].
-struct PointBounds {
-  std::vector<double> speed;         // [m]
-  std::vector<double> acceleration;  // [m]
-};
-
-PointBounds bounds_of(const JudgeKinematics& kinematics, const Eigen::VectorXd& change) {
-  PointBounds bounds;
-  for (int point = 0; point < kinematics.points(); ++point) {
-    double speed = 0;
-    double acceleration = 0;
-    for (int j = 0; j < kinematics.joints(); ++j) {
-      speed += std::abs(change(j)) * kinematics.reach(j, point);
-      for (int k = 0; k < kinematics.joints(); ++k) {
-        acceleration +=
-            std::abs(change(j)) * std::abs(change(k)) * kinematics.reach(std::max(j, k), point);
-      }
-    }
-    bounds.speed.push_back(speed);
-    bounds.acceleration.push_back(acceleration);
-  }
-  return bounds;
-}
-
 /// One motion being bisected.
 class Bisection {
  public:
@@ -51,7 +27,7 @@ class Bisection {
         to_(to),
         tick_(tick),
         change_(to - from),
-        bounds_(bounds_of(kinematics_, change_)),
+        bounds_(point_bounds(kinematics_, to - from, travel_of(from, to))),
         pairs_(pairs),
         limit_(limit),
         least_known_(known),
@@ -147,7 +123,7 @@ class Bisection {
       speed = std::max(speed, bounds_.speed[at]);
     }
     const double way = h * (speed + scene_.track(pair).travel(tick_));
-    return std::max(from_plane - scene_.link_radius(), reading.clearance - way);
+    return std::max(from_plane - scene_.link_radius(pair), reading.clearance - way);
   }
 
   const LinkScene& scene_;
@@ -168,6 +144,32 @@ class Bisection {
 
 }  // namespace
 
+PointBounds point_bounds(const JudgeKinematics& kinematics, const Eigen::VectorXd& change,
+                         const Eigen::VectorXd& travel) {
+  const Eigen::Index joints = change.size();
+  PointBounds bounds;
+  Eigen::VectorXd of_joint(joints);  // speed bounds of the point
+  for (int point = 0; point < kinematics.points(); ++point) {
+    for (int j = 0; j < joints; ++j) {
+      of_joint(j) = kinematics.speed_bound(j, point, travel);
+    }
+    double speed = 0;
+    double acceleration = 0;
+    for (int j = 0; j < joints; ++j) {
+      const double size = std::abs(change(j));
+      speed += size * of_joint(j);
+      const double turn = kinematics.is_prismatic(j) ? 0 : size;
+      acceleration += turn * size * of_joint(j);
+      for (int k = j + 1; k < joints; ++k) {
+        acceleration += 2 * turn * std::abs(change(k)) * of_joint(k);
+      }
+    }
+    bounds.speed.push_back(speed);
+    bounds.acceleration.push_back(acceleration);
+  }
+  return bounds;
+}
+
 double clearance_resolution(double clearance) {
   constexpr double kRelative = 1e-3;
   return std::max(1e-6, kRelative * clearance);
@@ -179,7 +181,7 @@ Eigen::VectorXd between(const Eigen::VectorXd& from, const Eigen::VectorXd& to, 
 
 std::vector<double> MotionCheck::travel(const Eigen::VectorXd& from, const Eigen::VectorXd& to,
                                         int tick) const {
-  const PointBounds bounds = bounds_of(scene_.kinematics(), to - from);
+  const PointBounds bounds = point_bounds(scene_.kinematics(), to - from, travel_of(from, to));
   std::vector<double> travel;
   for (const LinkObstaclePair& pair : scene_.pairs()) {
     const LinkSegment& link = scene_.link(pair);
@@ -194,6 +196,10 @@ MotionVerdict MotionCheck::follow(const Eigen::VectorXd& from, const Eigen::Vect
                                   const std::vector<LinkObstaclePair>& pairs, long limit,
                                   double known) const {
   return Bisection(scene_, from, to, tick, pairs, limit, known).run();
+}
+
+Eigen::VectorXd travel_of(const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
+  return from.cwiseAbs().cwiseMax(to.cwiseAbs());
 }
 
 }  // namespace bqsa::harness

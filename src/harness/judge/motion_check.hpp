@@ -30,13 +30,16 @@ struct MotionVerdict {
 ///
 /// A sub-interval of half width h is read at its midpoint. A pair is free on it if its clearance
 /// there exceeds what the motion can take away. Two bounds of that hold, and the better counts:
-/// - no point of the link goes further than h sum_j |dq_j| reach(j, link), and the obstacle comes
-///   no nearer than by h ObstacleTrack::travel;
+/// - no point of the link goes further than h sum_j |dq_j| r(j, link), r the speed_bound of
+///   JudgeKinematics with the larger of each |q_i| at both ends, and the obstacle comes no nearer than
+///   by h ObstacleTrack::travel;
 /// - the plane that proves the clearance moves with the obstacle, and as seen from there the ends e
 ///   of the link approach it by at most h |normal . u_e| + h²/2 b_e, with u_e their velocity at the
 ///   midpoint and b_e a bound of their acceleration. For an obstacle at rest u_e is the velocity
-///   v_e in W, and b_e = sum_jk |dq_j| |dq_k| reach(max(j, k), e): the second derivative of a point
-///   by q_j and q_k, j <= k, is axis_j x (axis_k x arm_k). Seen from an obstacle whose centre c
+///   v_e in W, and b_e = sum_jk |dq_j| |dq_k| r(max(j, k), e), but 0 where joint min(j, k) slides:
+///   the second derivative of a point by q_j and q_k, j <= k, is axis_j x (dP/dq_k) if joint j turns,
+///   with dP/dq_k = axis_k x arm_k or, if joint k slides, axis_k; and a joint j that slides turns
+///   nothing. Seen from an obstacle whose centre c
 ///   moves by c' and which turns by w, u_e = v_e - c' - w x (e - c), and the Coriolis and the
 ///   centrifugal term add 2 |w| (|v_e| + |c'|) + |w|² |e - c| to b_e.
 ///
@@ -67,6 +70,20 @@ class MotionCheck {
  private:
   const LinkScene& scene_;
 };
+
+/// Bounds of the speed and the acceleration of each point of the chain on a motion, for s in [0, 1].
+struct PointBounds {
+  std::vector<double> speed;         ///< [m]
+  std::vector<double> acceleration;  ///< [m]
+};
+
+/// @param change  of the joints over the motion; zero for those that are taken to be at rest [rad, m]
+/// @param travel  how far the prismatic joints are from 0, at most [m]
+PointBounds point_bounds(const JudgeKinematics& kinematics, const Eigen::VectorXd& change,
+                         const Eigen::VectorXd& travel);
+
+/// How far the joints are from 0 on the straight motion from `from` to `to`, at most.
+Eigen::VectorXd travel_of(const Eigen::VectorXd& from, const Eigen::VectorXd& to);
 
 /// How far the least clearance found may lie above the true one [m].
 double clearance_resolution(double clearance);

@@ -1,6 +1,7 @@
 #include "harness/judge/obstacle_track.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstddef>
 #include <stdexcept>
 
@@ -43,6 +44,11 @@ ObstacleTrack::ObstacleTrack(const Obstacle& obstacle, int ticks)
     }
     states_.push_back(state);
   }
+}
+
+bool ObstacleTrack::turns() const {
+  return std::any_of(states_.begin(), states_.end(),
+                     [](const ObstacleState& state) { return state.spin.norm() > 0; });
 }
 
 const ObstacleState& ObstacleTrack::end_of(int tick) const {

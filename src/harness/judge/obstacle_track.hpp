@@ -33,6 +33,7 @@ class ObstacleTrack {
   ObstacleTrack(const Obstacle& obstacle, int ticks);
 
   bool moves() const { return states_.size() > 1; }
+  bool turns() const;
   ObstacleState at(const Instant& instant) const;
 
   /// Bound of how much the motion to a tick can change the obstacle's clearance to anything at

@@ -136,13 +136,13 @@ std::vector<Obstacle> draw_bystanders(const Problem& lonely, int count) {
 }
 
 ControlLoop::ControlLoop(const MethodSpec& method, const Problem& problem)
-    : dt_(problem.dt), method_(method.entry.make(method.parameters)) {
+    : start_(problem.start), dt_(problem.dt), method_(method.entry.make(method.parameters)) {
   assert(!method.entry.capabilities.plans);
   reactive_ = &dynamic_cast<ReactiveMethod&>(*method_);
   for (int tick = 0; tick < kBystanderPeriod; ++tick) {
     desired_.push_back(problem.desired_tip(problem.time(tick)));
   }
-  input_.q = problem.start;
+  input_.q = start_;
   reactive_->prepare(problem);
 }
 
@@ -155,6 +155,7 @@ void ControlLoop::run(int ticks) {
     reactive_->step(input_, output_);
     if (output_.state == TickState::kInfeasible) ++infeasible_;
     if (output_.q.size() == input_.q.size()) input_.q = output_.q;
+    if (input_.tick % kHomecoming == 0) input_.q = start_;
   }
 }
 

@@ -18,6 +18,10 @@ inline constexpr double kBystanderClearance = 0.25;
 /// Ticks after which the desired tip is back at its start.
 inline constexpr int kBystanderPeriod = 100;
 
+/// Ticks after which the arm is put back to where it started. No method quite repeats itself: some
+/// 1e-5 rad a period would add up in thousands of periods until the arm is near a bystander.
+inline constexpr int kHomecoming = 10 * kBystanderPeriod;
+
 /// The tip of a planar arm of seven links, or of the KUKA LBR iiwa, goes to and fro on a straight line
 /// for longer than anybody measures: a motion without end, that pseudo-inverse tracking repeats.
 /// @param dimension  2 or 3
@@ -31,7 +35,7 @@ Problem lonely_puma();
 std::vector<Obstacle> draw_bystanders(const Problem& lonely, int count);
 
 /// A reactive method in its control loop, the first tick still to come. The arm executes what the
-/// method answers.
+/// method answers, and is put back every kHomecoming ticks.
 class ControlLoop {
  public:
   /// Makes and prepares the method; the problem must outlive it and repeat itself after
@@ -47,6 +51,7 @@ class ControlLoop {
   const WorkCounters& counters() const { return method_->counters(); }
 
  private:
+  JointVector start_;                     ///< [rad]
   std::vector<Eigen::Vector3d> desired_;  ///< of a period, from tick 0 on, made beforehand [m]
   double dt_;                             ///< [s]
   std::unique_ptr<Method> method_;

@@ -11,17 +11,24 @@ namespace bqsa::harness {
 
 inline KDL::Vector kdl_vector(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-/// Base and tool are segments without joint. Joint angles are the chain's; KDL's frame at the end is
-/// the last frame L, at the tip.
+/// Base and tool are segments without joint. Joint values are the chain's; KDL's frame at the end is
+/// that of the tip.
 inline KDL::Chain kdl_chain(const ChainDescription& arm) {
   KDL::Chain chain;
   const auto add = [&chain](KDL::Joint::JointType type, const KDL::Frame& frame) {
     chain.addSegment(KDL::Segment(KDL::Joint(type), frame));
   };
-  const Eigen::Matrix3d& R = arm.R_WB;
-  const KDL::Rotation base(R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1), R(1, 2), R(2, 0), R(2, 1),
-                           R(2, 2));
-  add(KDL::Joint::None, {base, kdl_vector(arm.p_WB)});
+  const auto frame = [](const Eigen::Matrix3d& R, const Eigen::Vector3d& p) {
+    return KDL::Frame(KDL::Rotation(R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1), R(1, 2), R(2, 0),
+                                    R(2, 1), R(2, 2)),
+                      kdl_vector(p));
+  };
+  add(KDL::Joint::None, frame(arm.R_WB, arm.p_WB));
+  for (const JointPlacement& placement : arm.placements) {
+    add(KDL::Joint::None, frame(placement.R_PJ, placement.p_PJ));
+    add(placement.type == JointType::kPrismatic ? KDL::Joint::TransZ : KDL::Joint::RotZ,
+        KDL::Frame::Identity());
+  }
   for (const DhRow& row : arm.rows) {
     if (arm.convention == DhConvention::kStandard) {
       add(KDL::Joint::RotZ, KDL::Frame::DH(row.a, row.alpha, row.d, row.offset));
@@ -30,7 +37,7 @@ inline KDL::Chain kdl_chain(const ChainDescription& arm) {
       add(KDL::Joint::RotZ, KDL::Frame::DH_Craig1989(0, 0, row.d, row.offset));
     }
   }
-  add(KDL::Joint::None, KDL::Frame(kdl_vector(arm.p_LT)));
+  add(KDL::Joint::None, frame(arm.R_LT, arm.p_LT));
   return chain;
 }
 

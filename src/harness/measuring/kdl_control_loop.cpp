@@ -17,7 +17,8 @@ struct KdlControlLoop::Solvers {
         q(chain.getNrOfJoints()),
         q_dot(chain.getNrOfJoints()),
         dt(problem.dt) {
-    q.data = problem.start;
+    home = problem.start;
+    q.data = home;
     forward.JntToCart(q, pose);
     start = pose;
     for (int at = 0; at < kBystanderPeriod; ++at) {
@@ -34,13 +35,15 @@ struct KdlControlLoop::Solvers {
     forward.JntToCart(q, pose);
     velocity.CartToJnt(q, KDL::diff(pose, desired_now(), dt), q_dot);
     q.data += dt * q_dot.data;
+    if (tick % kHomecoming == 0) q.data = home;
   }
 
   KDL::Chain chain;  // the solvers refer to it
   KDL::ChainFkSolverPos_recursive forward;
   KDL::ChainIkSolverVel_wdls velocity;
-  KDL::JntArray q;      // [rad]
-  KDL::JntArray q_dot;  // [rad/s]
+  Eigen::VectorXd home;  // [rad]
+  KDL::JntArray q;       // [rad]
+  KDL::JntArray q_dot;   // [rad/s]
   KDL::Frame pose, start;
   std::vector<KDL::Frame> desired;  // of a period, from tick 0 on
   double dt;                        // [s]

@@ -114,17 +114,18 @@ Status run_campaign_command(const std::vector<MethodEntry>& methods, const RunOp
     StopSignals::die_of(outcome.signal);
   }
   if (!options.quiet && how.shard.is_whole()) {
-    print_report(stored_rows(options.directory).rows, options.report, console.out);
+    print_report(stored_rows(options.directory).rows, options.report, console);
   } else if (!options.quiet) {
     console.out << fmt::format("shard {} of {}: {} runs done, {} of them failed, {} were there\n",
                                how.shard.number, how.shard.count, outcome.done, outcome.failed,
                                outcome.recorded);
   }
+  const Status reported = how.shard.is_whole() ? report_after_run(methods, options, console) : kOk;
   if (outcome.lost > 0) {
     console.error(fmt::format("{} runs are lost; the same command tries them again", outcome.lost));
     return kBadInput;
   }
-  return options.strict && outcome.failed + outcome.failed_before > 0 ? kRunFailed : kOk;
+  return options.strict && outcome.failed + outcome.failed_before > 0 ? kRunFailed : reported;
 }
 
 }  // namespace bqsa::harness

@@ -29,6 +29,7 @@ struct Console {
   std::ostream& out;
   std::ostream& err;
   bool terminal = false;  ///< err is a terminal: progress may be shown there
+  bool colour = false;    ///< out is a terminal that may show colours
 
   /// `bqsa-bench: error: <message>`
   void error(std::string_view message) const;
@@ -39,6 +40,9 @@ struct ReportOptions {
   bool summary = false;   ///< the summary, which many scenarios get anyway
   bool table = false;     ///< the table, however many scenarios there are
   bool failures = false;  ///< a line for each failed run too
+  bool motions = false;   ///< figures of the motion of each run too
+  bool sparklines =
+      false;  ///< of tip error and clearance in the table, which a terminal gets anyway
 
   /// More scenarios than these get the summary if nothing is asked for.
   static constexpr std::size_t kMostInTable = 12;
@@ -59,6 +63,7 @@ struct RunOptions {
   bool strict = false;
   bool quiet = false;        ///< neither progress nor table
   bool trajectories = true;  ///< stored
+  bool page = true;          ///< written at the end, PageOptions::page of the results directory
   bool latency = false;      ///< of one tick
   bool in_process = false;   ///< without a process of its own and without limits
 
@@ -123,6 +128,29 @@ Status list_command(const std::vector<MethodEntry>& methods, const std::filesyst
 Status show_command(const std::filesystem::path& directory, const ReportOptions& report,
                     const Console& console);
 
+struct PageOptions {
+  std::filesystem::path directory;  ///< of results
+  std::filesystem::path page;       ///< file to be written; empty: `report.html` in the directory
+  std::filesystem::path measurements;  ///< empty, as the next two: what the directory has
+  std::filesystem::path claims;
+  std::filesystem::path figures;
+  std::vector<std::filesystem::path> scenarios;  ///< further directories to look for them in
+  LoadOptions load;
+  int replays = 200;  ///< at most
+};
+
+/// Writes all of a results directory as one HTML file, which appears whole or not at all, and prints its
+/// name. What cannot be used is reported and left out.
+/// @throws InputError if there are no records, for a file that is named and cannot be read, or a page that
+///   cannot be written
+Status report_command(const std::vector<MethodEntry>& methods, const PageOptions& options,
+                      const Console& console);
+
+/// The same after a run, whose results are safe by then: unless there are too many runs, which is said if
+/// not `quiet`. kBadInput, and a message, if it cannot be written.
+Status report_after_run(const std::vector<MethodEntry>& methods, const RunOptions& options,
+                        const Console& console);
+
 struct ExportOptions {
   std::filesystem::path directory;
   std::filesystem::path ompl_log;  ///< `*.log`, or a directory; empty: not written, as the others
@@ -148,6 +176,16 @@ struct StepOptions {
 /// Repeats one tick of a method, freshly prepared, and prints what it did and how long it took.
 Status step_command(const std::vector<MethodEntry>& methods, const StepOptions& options,
                     const Console& console);
+
+struct InspectOptions {
+  std::filesystem::path file;       ///< of a scenario or robot, or in URDF
+  std::string base_link, tip_link;  ///< in URDF: between which links
+  bool capsules = false;            ///< in URDF: radii of the links by its collision geometry
+  LoadOptions load;
+};
+
+/// Prints the chain of a robot: joints with their limits, links with length and radius, reach.
+Status inspect_robot_command(const InspectOptions& options, const Console& console);
 
 /// Prints the judgement of one trajectory file.
 Status judge_command(const std::filesystem::path& scenario, const std::filesystem::path& trajectory,
@@ -213,6 +251,24 @@ Status claims_command(const std::vector<MethodEntry>& methods, const ClaimsOptio
 /// of its block of claims.
 Status render_claims_command(const std::filesystem::path& result, const std::filesystem::path& into,
                              const Console& console);
+
+struct ImportOptions {
+  std::filesystem::path set;        ///< file of a published problem set
+  std::filesystem::path robot;      ///< robot file (schema bqsa-robot/1)
+  std::filesystem::path directory;  ///< for the scenario files; made if missing
+  std::vector<std::string> groups;  ///< of the set; none means all
+  int count = 0;                    ///< of each group the first so many; 0: all
+  std::uint64_t seed = 1;           ///< of the planner of reference motions
+  double clearance = 0.005;         ///< that references keep [m]
+  double tolerance = 1e-3;          ///< of the scenarios [m]
+  double margin = 0;                ///< of the scenarios [m]
+  bool witnesses = false;           ///< write the reference motions too
+};
+
+/// Makes tracking problems of a published set of planning problems (docs/importing.md): writes
+/// `<set>_<group>_<index>.yaml` with `.path.csv`, if asked for `.witness.csv`, and `import.csv`,
+/// which says of every problem what became of it. Files are overwritten as generate_command() does.
+Status import_command(const ImportOptions& options, const Console& console);
 
 struct GenerateOptions {
   std::string family;

@@ -35,7 +35,14 @@ Status conform_command(const std::vector<MethodEntry>& methods, const ConformOpt
   for (const std::string& text : options.methods) specs.push_back(parse_method_spec(text, methods));
   std::vector<Problem> problems;
   for (const std::filesystem::path& file : with_directories_opened(options.scenarios)) {
-    problems.push_back(load_scenario(file, options.load).problem);
+    Scenario scenario = load_scenario(file, options.load);
+    if (!scenario.geometry.solids.empty() || scenario.self_collision) {
+      throw InputError(fmt::format(
+          "{}: expected obstacles that are ellipsoids and no self_collision, since laws "
+          "are checked on what methods are told, got another scenario",
+          file.string()));
+    }
+    problems.push_back(std::move(scenario.problem));
   }
   const ConformanceSettings settings{.plan_budget_s = options.plan_budget, .limits = {}};
   bool kept = true;

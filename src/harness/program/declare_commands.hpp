@@ -19,8 +19,11 @@ struct CommandLine {
   std::vector<std::string> externals;  ///< `NAME=COMMAND`
   RunOptions run;
   GenerateOptions generate;
+  ImportOptions import;
   ExportOptions exported;
+  PageOptions page;
   StepOptions step;
+  InspectOptions inspect;
   ConformOptions conform;
   FiguresOptions figures;
   MeasureOptions measure;

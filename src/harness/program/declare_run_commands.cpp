@@ -12,6 +12,7 @@ constexpr double kMostSeconds = 1e6;
 constexpr int kMostJobs = 1024;
 constexpr int kMostShards = 100'000;
 constexpr int kMostMebibytes = 1 << 24;
+constexpr int kMostReplays = 100'000;
 
 void add_external_option(CLI::App& command, std::vector<std::string>& externals) {
   command
@@ -34,6 +35,8 @@ void add_report_options(CLI::App& command, ReportOptions& report) {
   command.add_flag("--table", report.table, "Print the table [up to 12 scenarios]")
       ->excludes(summary);
   command.add_flag("--failures", report.failures, "List every failed run too");
+  command.add_flag("--motion", report.motions,
+                   "List drift, manipulability, self-motion and jerk of every run too");
 }
 
 void declare_list(CLI::App& app, CommandLine& line) {
@@ -119,6 +122,8 @@ void declare_run(CLI::App& app, CommandLine& line) {
   add_external_option(*run, line.externals);
   run->add_flag("--strict", line.run.strict, "Exit with 1 if a run is not judged a success");
   run->add_flag("--quiet,-q", line.run.quiet, "Print neither progress nor table");
+  run->add_flag("!--no-report", line.run.page,
+                "Do not write report.html into the results directory");
   add_report_options(*run, line.run.report);
   on_choice(*run, line, [&line, conditions, of_campaigns](const Console& console) {
     line.run.not_for_campaigns = given(conditions);
@@ -173,8 +178,38 @@ void declare_show(CLI::App& app, CommandLine& line) {
   CLI::App* show = add_command(app, "show", "Print the table of a results directory");
   show->add_option("DIR", line.results_directory, "Results directory")->required();
   add_report_options(*show, line.report);
+  show->add_flag("--sparklines", line.report.sparklines,
+                 "Draw tip error and clearance over the ticks in the table, where the locale is\n"
+                 "UTF-8 and the trajectories are there [on a terminal]");
   on_choice(*show, line, [&line](const Console& console) {
     return show_command(line.results_directory, line.report, console);
+  });
+}
+
+void declare_report(CLI::App& app, CommandLine& line) {
+  CLI::App* report =
+      add_command(app, "report",
+                  "Write results as one HTML file to look at, without a network (docs/report.md)");
+  PageOptions& page = line.page;
+  report->add_option("DIR", page.directory, "Results directory, of single runs or a campaign")
+      ->required();
+  report->add_option("--out,-o", page.page, "The file [DIR/report.html]");
+  report->add_option("--measurements", page.measurements,
+                     "Times as measure wrote them [DIR/measurements.json, if it is there]");
+  report->add_option("--claims", page.claims,
+                     "Claims as claims wrote them [DIR/claims/claims.json, if it is there]");
+  report->add_option("--figures", page.figures,
+                     "Directory that figures wrote, to link to [DIR/figures, if it is there]");
+  report
+      ->add_option("--scenarios", page.scenarios,
+                   "Directory in which scenario files may lie now; repeatable [where they lay\n"
+                   "when they were run, and DIR]")
+      ->allow_extra_args(false);
+  report->add_option("--replays", page.replays, "Motions to replay, at most [200]")
+      ->check(CLI::Range(0, kMostReplays));
+  add_load_options(*report, page.load);
+  on_choice(*report, line, [&line](const Console& console) {
+    return report_command(line.methods, line.page, console);
   });
 }
 
@@ -240,6 +275,21 @@ void declare_conform(CLI::App& app, CommandLine& line) {
   });
 }
 
+void declare_inspect(CLI::App& app, CommandLine& line) {
+  CLI::App* inspect =
+      add_command(app, "inspect-robot", "Print the chain of a robot: joints, limits, links, reach");
+  inspect->add_option("FILE", line.inspect.file, "Scenario or robot file, or a robot in URDF")
+      ->required();
+  inspect->add_option("--base-link", line.inspect.base_link, "In URDF: the link that is at rest");
+  inspect->add_option("--tip-link", line.inspect.tip_link, "In URDF: a link that hangs from it");
+  inspect->add_flag("--capsules", line.inspect.capsules,
+                    "In URDF: radii of the links that contain its collision geometry");
+  add_load_options(*inspect, line.inspect.load);
+  on_choice(*inspect, line, [&line](const Console& console) {
+    return inspect_robot_command(line.inspect, console);
+  });
+}
+
 void declare_judge(CLI::App& app, CommandLine& line) {
   CLI::App* judge = add_command(app, "judge", "Judge any trajectory of a scenario");
   judge->add_option("SCENARIO", line.scenario, "Scenario file")->required();
@@ -277,6 +327,34 @@ void declare_generate(CLI::App& app, CommandLine& line) {
             [&line](const Console& console) { return generate_command(line.generate, console); });
 }
 
+void declare_import(CLI::App& app, CommandLine& line) {
+  CLI::App* import = add_command(
+      app, "import",
+      "Make tracking problems of a published set of planning problems (docs/importing.md)");
+  import->add_option("FILE", line.import.set, "Problem set of VAMP (JSON) or Robometrics (YAML)")
+      ->required();
+  import->add_option("--robot", line.import.robot, "Robot file, schema bqsa-robot/1")->required();
+  import
+      ->add_option("--out,-o", line.import.directory,
+                   "Directory for the files; other content in it is not overwritten")
+      ->required();
+  import->add_option("--group", line.import.groups, "Groups of the set [all]");
+  import->add_option("--count", line.import.count, "At most so many of each group [all]")
+      ->check(CLI::Range(1, kMostGenerated));
+  import->add_option("--seed", line.import.seed, "Of the planner of reference motions [1]")
+      ->check(CLI::NonNegativeNumber);
+  import->add_option("--clearance", line.import.clearance, "That references keep, in m [0.005]")
+      ->check(CLI::Range(0.0, 1.0));
+  import->add_option("--tolerance", line.import.tolerance, "Of the scenarios, in m [0.001]")
+      ->check(CLI::Range(1e-9, 1.0));
+  import->add_option("--margin", line.import.margin, "Of the scenarios, in m [0]")
+      ->check(CLI::Range(0.0, 1.0));
+  import->add_flag("--witnesses", line.import.witnesses,
+                   "Write the reference motions too, FILE.witness.csv, for judge");
+  on_choice(*import, line,
+            [&line](const Console& console) { return import_command(line.import, console); });
+}
+
 void declare_new_method(CLI::App& app, CommandLine& line) {
   CLI::App* new_method = add_command(
       app, "new-method", "Write a method that works, with its test, into the source tree");
@@ -307,11 +385,14 @@ void declare_run_commands(CLI::App& app, CommandLine& line) {
   declare_missing(app, line);
   declare_merge(app, line);
   declare_show(app, line);
+  declare_report(app, line);
   declare_export(app, line);
   declare_step(app, line);
   declare_conform(app, line);
+  declare_inspect(app, line);
   declare_judge(app, line);
   declare_generate(app, line);
+  declare_import(app, line);
   declare_new_method(app, line);
   declare_validate(app, line);
 }

@@ -51,14 +51,6 @@ void check_targets(const ExportOptions& options) {
   }
 }
 
-/// Keys of a campaign's plan, in its order; nothing for other results.
-std::optional<std::vector<std::string>> planned_keys(const fs::path& directory) {
-  if (!has_plan(directory)) return std::nullopt;
-  std::vector<std::string> keys;
-  for (const ListedRun& run : read_plan(directory).runs) keys.push_back(run.key);
-  return keys;
-}
-
 std::string counted(std::size_t count, const char* thing) {
   return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
 }

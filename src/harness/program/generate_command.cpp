@@ -35,7 +35,7 @@ Status generate_command(const GenerateOptions& options, const Console& console) 
     throw InputError(
         fmt::format("--witnesses: expected a family that has them, got {}", family.name));
   }
-  const std::vector<Arm> arms = family.spatial ? spatial_arms(options.robots) : std::vector<Arm>();
+  const std::vector<Arm> arms = arms_of(family, options.robots);
   std::error_code error;
   fs::create_directories(options.directory, error);
   if (!fs::is_directory(options.directory)) {

@@ -19,7 +19,8 @@ std::string abilities(const MethodEntry& method) {
   for (const auto& [able, name] :
        {std::pair(can.planar, "planar"), std::pair(can.spatial, "spatial"),
         std::pair(can.link_radius, "link radius"), std::pair(can.margin, "margin"),
-        std::pair(can.moving, "moving obstacles")}) {
+        std::pair(can.moving, "moving obstacles"), std::pair(can.prismatic, "prismatic joints"),
+        std::pair(can.orientation, "orientation")}) {
     if (able) text += (text.empty() ? "" : ", ") + std::string(name);
   }
   return text;

@@ -163,7 +163,7 @@ Status run_command(const std::vector<MethodEntry>& methods, const RunOptions& op
     for (const std::filesystem::path& file : files) {
       reporting([&] {
         const Scenario scenario = load_scenario(file, options.load);
-        const Judge judge(scenario.problem);
+        const Judge judge(scenario.problem, scenario.truth, scenario.self_collision);
         for (const MethodSpec& spec : specs) {
           for (std::uint64_t k = 0; k < seeds_of(spec, options); ++k) {
             reporting([&] { run_one(scenario, judge, spec, options.seed + k); });
@@ -172,13 +172,14 @@ Status run_command(const std::vector<MethodEntry>& methods, const RunOptions& op
       });
     }
   }
-  if (!options.quiet && !rows.empty()) print_report(rows, options.report, console.out);
+  if (!options.quiet && !rows.empty()) print_report(rows, options.report, console);
+  const Status reported = report_after_run(methods, options, console);
 
   bool failed = false;
   for (const TableRow& row : rows) failed = failed || (row.applicable && !row.success);
   count_refused();
   if (lost || refused > 0) return kBadInput;
-  return options.strict && failed ? kRunFailed : kOk;
+  return options.strict && failed ? kRunFailed : reported;
 }
 
 }  // namespace bqsa::harness

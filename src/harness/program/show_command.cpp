@@ -5,6 +5,7 @@
 #include "harness/campaign/stored_rows.hpp"
 #include "harness/program/commands.hpp"
 #include "harness/program/report.hpp"
+#include "harness/program/run_curves.hpp"
 
 namespace bqsa::harness {
 
@@ -12,7 +13,9 @@ Status show_command(const std::filesystem::path& directory, const ReportOptions&
                     const Console& console) {
   const StoredRows stored = stored_rows(directory);
   for (const BadLine& line : stored.bad_lines) console.error(text_of(line));
-  print_report(stored.rows, report, console.out);
+  print_report(stored.rows, report, console,
+               report.sparklines || console.colour ? curves_of_runs(directory, console.colour)
+                                                   : std::function<std::string(const TableRow&)>());
   if (stored.stale > 0) {
     console.out << fmt::format(
         "left out: {} records of another program, scenario or set of parameters (bqsa-bench "

@@ -180,6 +180,7 @@ Status step_command(const std::vector<MethodEntry>& methods, const StepOptions& 
   input.tick = replay.tick;
   input.t = problem.time(replay.tick);
   input.p_WT_desired = problem.desired_tip(input.t);
+  input.R_WT_desired = problem.rotation_at(input.t);
   input.q = replay.q;
   StepOutput first;
   const WorkCounters before = method->counters();

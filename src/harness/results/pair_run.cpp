@@ -75,7 +75,8 @@ JudgedPair judged_pair(const Scenario& scenario, const Judge& judge, const Metho
   run.claim = outcome.claim;
   run.killed = outcome.claim == Claim::kCrashed && outcome.message.starts_with(end_text(SIGKILL));
   run.record = run_record(scenario, method, outcome, diagnosis_of(problem, outcome), judgement,
-                          machine, circumstances, run.trajectory ? file : "");
+                          motion_quality(problem, outcome.trajectory, judgement.rows), machine,
+                          circumstances, run.trajectory ? file : "");
   return run;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "harness/results/provenance_json.hpp"
@@ -16,23 +17,54 @@ using Json = nlohmann::ordered_json;
 Json scenario_json(const Scenario& scenario) {
   return {{"name", scenario.problem.name},
           {"file", scenario.file.string()},
-          {"sha256", scenario.sha256}};
+          {"sha256", scenario.sha256},
+          {"reference_clearance_m",
+           scenario.reference_clearance ? Json(*scenario.reference_clearance) : Json()}};
 }
 
-Json problem_json(const Problem& problem) {
+/// null if all obstacles are ellipsoids.
+Json geometry_json(const GeometryLedger& ledger) {
+  if (ledger.solids.empty()) return nullptr;
+  Json solids = Json::array();
+  for (const LedgerEntry& entry : ledger.solids) {
+    solids.push_back(
+        {{"name", entry.name},
+         {"kind", entry.kind},
+         {"parts", entry.parts},
+         {"ellipsoids", entry.ellipsoids},
+         {"inflation_m", entry.inflation},
+         {"volume_ratio", entry.volume_ratio},
+         {"within_bounds", entry.within_bounds},
+         {"hull_over_mesh", entry.hull_over_mesh ? Json(*entry.hull_over_mesh) : Json()}});
+  }
+  return {{"solids", solids},
+          {"gap_lost_m", ledger.gap_lost},
+          {"radius_excess_m", ledger.radius_excess}};
+}
+
+Json problem_json(const Scenario& scenario) {
+  const Problem& problem = scenario.problem;
   const std::size_t links = problem.chain.links().size();
   Json obstacles = Json::array();
   for (const Obstacle& obstacle : problem.obstacles) obstacles.push_back(obstacle.name);
-  return {{"dimension", problem.dimension()},
-          {"joints", problem.chain.joints()},
-          {"links", links},
-          {"obstacles", obstacles},
-          {"nk", links * problem.obstacles.size()},
-          {"ticks", problem.ticks},
-          {"dt_s", problem.dt},
-          {"tolerance_m", problem.tolerance},
-          {"margin_m", problem.margin},
-          {"link_radius_m", problem.link_radius}};
+  Json json{{"robot", scenario.robot_name.empty() ? Json() : Json(scenario.robot_name)},
+            {"dimension", problem.dimension()},
+            {"joints", problem.chain.joints()},
+            {"links", links},
+            {"obstacles", obstacles},
+            {"nk", links * problem.obstacles.size()},
+            {"ticks", problem.ticks},
+            {"dt_s", problem.dt},
+            {"tolerance_m", problem.tolerance},
+            {"margin_m", problem.margin},
+            {"link_radius_m", problem.link_radius},
+            {"geometry", geometry_json(scenario.geometry)}};
+  if (!problem.link_radii.empty()) json["link_radii_m"] = problem.link_radii;
+  if (problem.has_orientation()) {
+    json["orientation"] = problem.task_kind == TaskKind::kAxis ? "axis" : "pose";
+    json["orientation_tolerance_rad"] = problem.orientation_tolerance;
+  }
+  return json;
 }
 
 Json method_json(const MethodSpec& method, const Circumstances& circumstances) {
@@ -95,6 +127,7 @@ Json ticks_json(const Problem& problem, const RunOutcome& outcome) {
           {"clamped", outcome.clamped_ticks},
           {"unclaimed", outcome.unclaimed_ticks},
           {"clamped_pairs", pairs},
+          {"clamp_starts", outcome.clamp_starts},
           {"increments_total", outcome.increments_total},
           {"increments_max", outcome.increments_max},
           {"increments_tick_mean", outcome.increments.mean},
@@ -115,30 +148,68 @@ Json tip_error_json(const TipError& error) {
           {"max_tick", error.max_tick}};
 }
 
+/// null if no pair of links was judged.
+Json self_collision_json(const Judgement& judgement) {
+  if (!std::isfinite(judgement.self_clearance_at_ticks)) return nullptr;
+  Json contacts = Json::array();
+  for (const SelfContact& contact : judgement.self_contacts) {
+    contacts.push_back({{"link", contact.first},
+                        {"other_link", contact.second},
+                        {"first_tick", contact.first_tick},
+                        {"at_tick", contact.at_tick},
+                        {"ticks", contact.ticks}});
+  }
+  return {{"contacts", contacts}, {"clearance_at_ticks_m", judgement.self_clearance_at_ticks}};
+}
+
+Json orientation_json(const OrientationError& error) {
+  return {{"mean_rad", error.mean}, {"max_rad", error.max}, {"max_tick", error.max_tick}};
+}
+
 Json judged_json(const Problem& problem, const Judgement& judgement) {
   Json failures = Json::array();
   for (const Failure failure : judgement.failures) failures.push_back(name_of(failure));
   Json contacts = Json::array();
   for (const Contact& contact : judgement.contacts) {
     contacts.push_back({{"link", contact.link},
-                        {"obstacle", obstacle_json(problem, contact.obstacle)},
+                        {"obstacle", contact.obstacle},
                         {"first_tick", contact.first_tick},
                         {"at_tick", contact.at_tick},
                         {"ticks", contact.ticks}});
   }
-  return {{"success", judgement.success()},
-          {"failures", failures},
-          {"rows", judgement.rows},
-          {"contacts", contacts},
-          {"disagreement", judgement.disagreement},
-          {"touching", judgement.touching},
-          {"clearance_at_ticks_m", judgement.clearance_at_ticks},
-          {"clearance_m", judgement.clearance},
-          {"tip_error_at_ticks", tip_error_json(judgement.at_ticks)},
-          {"tip_error_between_ticks", tip_error_json(judgement.between_ticks)},
-          {"start_error_m", judgement.start_error},
-          {"max_joint_step_rad", judgement.max_joint_step},
-          {"max_joint_step_tick", judgement.max_joint_step_tick}};
+  Json json{{"success", judgement.success()},
+            {"failures", failures},
+            {"rows", judgement.rows},
+            {"contacts", contacts},
+            {"self_collision", self_collision_json(judgement)},
+            {"disagreement", judgement.disagreement},
+            {"touching", judgement.touching},
+            {"clearance_at_ticks_m", judgement.clearance_at_ticks},
+            {"clearance_m", judgement.clearance},
+            {"tip_error_at_ticks", tip_error_json(judgement.at_ticks)},
+            {"tip_error_between_ticks", tip_error_json(judgement.between_ticks)},
+            {"start_error_m", judgement.start_error},
+            {"max_joint_step_rad", judgement.max_joint_step},
+            {"max_joint_step_tick", judgement.max_joint_step_tick}};
+  if (problem.chain.has_prismatic_joints()) {
+    json["max_joint_slide_m"] = judgement.max_joint_slide;
+    json["max_joint_slide_tick"] = judgement.max_joint_slide_tick;
+  }
+  if (problem.has_orientation()) {
+    json["orientation_at_ticks"] = orientation_json(judgement.orientation_at_ticks);
+    json["orientation_between_ticks"] = orientation_json(judgement.orientation_between_ticks);
+  }
+  return json;
+}
+
+Json motion_json(const MotionQuality& motion) {
+  return {{"closed_path_drift_rad", motion.closed_path_drift},
+          {"closed_path_drift_joint_rad", motion.closed_path_drift_joint},
+          {"manipulability_min", motion.manipulability_min},
+          {"manipulability_mean", motion.manipulability_mean},
+          {"singular_value_min_m", motion.singular_value_min},
+          {"null_space_share", motion.null_space_share},
+          {"jerk_rms_rad_s3", motion.jerk_rms}};
 }
 
 Json counters_json(const WorkCounters& counters) {
@@ -208,7 +279,7 @@ Json head_json(const Scenario& scenario, const MethodSpec& method,
                const Circumstances& circumstances) {
   return {{"schema", "bqsa-run/1"},
           {"scenario", scenario_json(scenario)},
-          {"problem", problem_json(scenario.problem)},
+          {"problem", problem_json(scenario)},
           {"method", method_json(method, circumstances)},
           {"campaign", campaign_json(circumstances.place)},
           {"disturbance", disturbance_json(circumstances.settings.disturbance)}};
@@ -244,12 +315,14 @@ std::string run_name(const MethodSpec& method, const Circumstances& circumstance
 
 std::string run_record(const Scenario& scenario, const MethodSpec& method,
                        const RunOutcome& outcome, const std::optional<Diagnosis>& diagnosis,
-                       const Judgement& judgement, const MachineState& machine,
-                       const Circumstances& circumstances, const std::string& trajectory_file) {
+                       const Judgement& judgement, const MotionQuality& motion,
+                       const MachineState& machine, const Circumstances& circumstances,
+                       const std::string& trajectory_file) {
   const bool success = judgement.success();
   Json record = head_json(scenario, method, circumstances);
   record["claimed"] = claimed_json(scenario.problem, outcome, diagnosis);
   record["judged"] = judged_json(scenario.problem, judgement);
+  record["motion"] = motion_json(motion);
   record["claim_holds"] = claim_holds(outcome.claim, success);
   record["ticks"] = ticks_json(scenario.problem, outcome);
   record["counters"] = counters_json(outcome.counters);

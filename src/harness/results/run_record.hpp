@@ -9,6 +9,7 @@
 #include "harness/failure_class.hpp"
 #include "harness/isolated_run.hpp"
 #include "harness/judge/judge.hpp"
+#include "harness/judge/motion_quality.hpp"
 #include "harness/method_spec.hpp"
 #include "harness/results/provenance.hpp"
 #include "harness/runner.hpp"
@@ -56,8 +57,9 @@ std::string run_name(const MethodSpec& method, const Circumstances& circumstance
 /// @param trajectory_file  relative to the results directory; empty if it was not stored
 std::string run_record(const Scenario& scenario, const MethodSpec& method,
                        const RunOutcome& outcome, const std::optional<Diagnosis>& diagnosis,
-                       const Judgement& judgement, const MachineState& machine,
-                       const Circumstances& circumstances, const std::string& trajectory_file);
+                       const Judgement& judgement, const MotionQuality& motion,
+                       const MachineState& machine, const Circumstances& circumstances,
+                       const std::string& trajectory_file);
 
 /// A pair of method and problem that does not fit, and why.
 std::string not_applicable_record(const Scenario& scenario, const MethodSpec& method,

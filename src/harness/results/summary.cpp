@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "harness/judge/judge.hpp"
@@ -18,6 +19,7 @@ constexpr std::string_view kSummaryLegend =
     R"(success     runs judged a success of all runs of a method that applies; 95 %: Wilson's interval, for which the
             repetitions of a scenario, which are not independent, count as one run
 claim       wrong: runs in which the method claims success and the judge finds a failure, or the other way round
+by robot    success in % of families of two or more robots with a name; beside the family how many runs each method has
 failures    each failed run once: by the judge's most telling verdict, or, if the method only gave up, by its reason
 why         each run that gave up once: no free posture found; a way, but too far for one tick; arm singular; free
             postures, but no way there; a way within the tick that the method missed. A diagnosis, not a verdict
@@ -28,8 +30,19 @@ increments  clamping increments of a tick, over all ticks of all successes in wh
 time        wall clock of a tick, over all ticks from the second on of all successes, as if of one run; median and
             quantiles to 2.2 % (from histograms), max exact; slowest: of all runs, also those that gave up;
             total: of all runs, all that the methods did
+motion      median over the successes: joint drift after a closed path; least and mean manipulability and least singular
+            value of the tip's Jacobian [m^2 or m^3, m]; part of the joint motion that does not move the tip; root
+            mean square of the joints' jerk
 in pairs    scenarios to which both methods apply, each repetition by itself, by who succeeded; methods that never
             did are left out
+)";
+
+constexpr std::string_view kMotionLegend =
+    R"(drift           of the joints after a closed path, all together and the largest; - if the path is open
+manipulability  sqrt(det(J J')) of the tip's Jacobian at the ticks [m^2, in space m^3]; singular: its least singular value
+self-motion     part of the joint motion that does not move the tip
+jerk            root mean square over joints and ticks, from third differences
+clears          times that the method, by its own account, began to clear a link of an obstacle
 )";
 
 /// What the names of the variants stand for.
@@ -111,10 +124,11 @@ std::string render_summary(const std::vector<TableRow>& all_rows) {
   const std::string alarm = alarms(tallies);
   return fmt::format("{} runs on {} scenarios of {} families\n\n", rows.size(),
                      count_scenarios(rows), tallies.families.names().size()) +
-         success_table(tallies) + alarm + '\n' + failure_table(tallies) + '\n' +
-         why_table(tallies) + accuracy_table(tallies) + '\n' + time_table(tallies) + '\n' +
-         plan_table(tallies) + pair_table(tallies, rows) + variant_notes(rows) +
-         std::string(success_legend()) + std::string(kSummaryLegend) + origin_notes(rows);
+         success_table(tallies) + alarm + '\n' + robot_table(tallies, rows) +
+         failure_table(tallies) + '\n' + why_table(tallies) + accuracy_table(tallies) + '\n' +
+         time_table(tallies) + '\n' + plan_table(tallies) + motion_table(tallies) +
+         pair_table(tallies, rows) + variant_notes(rows) + std::string(success_legend()) +
+         std::string(kSummaryLegend) + origin_notes(rows);
 }
 
 std::string render_failures(const std::vector<TableRow>& all_rows) {
@@ -136,6 +150,35 @@ std::string render_failures(const std::vector<TableRow>& all_rows) {
                    row.failure_obstacle.empty() ? "-" : row.failure_obstacle, row.claim_class});
   }
   return any ? table.text() : "no run failed\n";
+}
+
+std::string render_motions(const std::vector<TableRow>& all_rows) {
+  TextTable table({{"motion", "", true},
+                   {"method", "", true},
+                   {"repe-", "tition", false, true},
+                   {"judged", "", true},
+                   {"drift", "[deg]"},
+                   {"joint", "[deg]"},
+                   {"manipulability", "least"},
+                   {"", "mean"},
+                   {"singular", "[m]"},
+                   {"self-motion", "[%]"},
+                   {"jerk", "[rad/s3]"},
+                   {"clears", ""}});
+  constexpr double kDegree = std::numbers::pi / 180;
+  constexpr double kPercent = 1e-2;
+  for (const TableRow& row : last_runs(all_rows)) {
+    if (!row.applicable) continue;
+    const MotionQuality& motion = row.motion;
+    table.add_row({row.scenario, row.variant, std::to_string(row.repetition),
+                   row.success ? "success" : failure_class(row),
+                   figure(motion.closed_path_drift / kDegree),
+                   figure(motion.closed_path_drift_joint / kDegree),
+                   figure(motion.manipulability_min), figure(motion.manipulability_mean),
+                   figure(motion.singular_value_min), figure(motion.null_space_share / kPercent),
+                   figure(motion.jerk_rms), figure(row.clamp_starts)});
+  }
+  return table.text() + std::string(kMotionLegend);
 }
 
 }  // namespace bqsa::harness

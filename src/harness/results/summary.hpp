@@ -18,6 +18,9 @@ std::string render_summary(const std::vector<TableRow>& rows);
 /// A line for each run that failed: scenario, method, class of failure, and where.
 std::string render_failures(const std::vector<TableRow>& rows);
 
+/// A line for each run: figures of its motion that decide nothing, and what they mean.
+std::string render_motions(const std::vector<TableRow>& rows);
+
 /// Family of a scenario: its name without an end `_s<seed>_<number>`, or else without digits at the
 /// end and what joins them.
 std::string family_of(const std::string& scenario);

@@ -21,9 +21,10 @@ constexpr std::string_view kMarks =
     "- not applicable\n";
 
 constexpr std::string_view kLegend =
-    R"(judged      collides: a link in an obstacle; drifts: tip error at a tick above the tolerance; jumps: a joint step above
-            the velocity limit; breaks joint limits; incomplete: rows missing, too many or at wrong times; wrong start;
-            not finite: a number that is not; undecided: not proven free between ticks with the work allowed;
+    R"(judged      collides: a link in an obstacle; self-collides: a link in another; drifts: tip error at a tick above the
+            tolerance; tilts: angle of the tip at a tick above its own; jumps: a joint step above the velocity limit;
+            breaks joint limits; incomplete: rows missing, too many or at wrong times; wrong start; not finite: a
+            number that is not; undecided: not proven free between ticks with the work allowed;
             no verdict: the two checkers of the judge disagree, a failure of the harness and not of the method;
             of conduct: timed out, out of memory, crashed; changes inputs: wrote into the problem; hides work: used
             the processor beyond what its times show
@@ -114,6 +115,21 @@ char mark_of(const TableRow& row) {
   return row.success ? '+' : 'x';
 }
 
+/// How a terminal shows a mark, and the verdict beside it.
+const char* rendition_of(char mark) {
+  switch (mark) {
+    case '+':
+      return kGreen;
+    case 'x':
+    case '!':
+      return kRed;
+    case '?':
+      return kYellow;
+    default:
+      return kDim;
+  }
+}
+
 /// Breaks a list over lines of the table's width, each indented.
 std::string note(const std::string& label, const std::vector<std::string>& items) {
   constexpr std::string_view kIndent = "      ";
@@ -155,6 +171,11 @@ std::string notes_of(const TableRow& row) {
   }
   if (!row.collided.empty()) text += note("collided:", row.collided);
   if (!row.clamped.empty()) text += note("moved away:", row.clamped);
+  if (std::isfinite(row.orientation_at_ticks_rad)) {
+    text += note("tip turned away [deg]:",
+                 {fmt::format("{} at ticks | {} between", degrees(row.orientation_at_ticks_rad),
+                              degrees(row.orientation_between_ticks_rad))});
+  }
   if (row.guard_fired > 0) {
     text += note(fmt::format("guard fired in {} of {} ticks", row.guard_fired, row.ticks), {});
   }
@@ -182,8 +203,10 @@ std::string time_notes(const std::vector<TableRow>& rows) {
 using Widths = std::array<std::size_t, kColumns.size()>;
 
 /// A method's name that is wider than its column stands on a line of its own.
-std::string line_of(char mark, Cells cells, const Widths& widths) {
-  std::string line = fmt::format("{} ", mark);
+std::string line_of(char mark, Cells cells, const Widths& widths, bool colour) {
+  constexpr std::size_t kVerdict = 1;
+  const char* const rendition = rendition_of(mark);
+  std::string line = rendered(std::string(1, mark), rendition, colour && mark != ' ') + " ";
   if (cells[0].size() > widths[0]) {
     line += fmt::format("  {}\n  ", cells[0]);
     cells[0].clear();
@@ -191,7 +214,7 @@ std::string line_of(char mark, Cells cells, const Widths& widths) {
   for (std::size_t c = 0; c < cells.size(); ++c) {
     const std::string text = kColumns[c].left ? fmt::format("{:<{}}", cells[c], widths[c])
                                               : fmt::format("{:>{}}", cells[c], widths[c]);
-    line += "  " + text;
+    line += "  " + (c == kVerdict ? rendered(text, rendition, colour && mark != ' ') : text);
   }
   return line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
 }
@@ -244,7 +267,7 @@ bool same_build(const TableRow& a, const TableRow& b) { return a.build == b.buil
 }  // namespace
 
 std::string verdict_of(const std::string& failure) {
-  static const std::array<std::pair<Failure, const char*>, 14> kVerdicts{{
+  static const std::array<std::pair<Failure, const char*>, 16> kVerdicts{{
       {Failure::kDisagreement, "no verdict"},
       {Failure::kInputsChanged, "changes inputs"},
       {Failure::kWorkHidden, "hides work"},
@@ -255,10 +278,12 @@ std::string verdict_of(const std::string& failure) {
       {Failure::kIncomplete, "incomplete"},
       {Failure::kWrongStart, "wrong start"},
       {Failure::kCollision, "collides"},
+      {Failure::kSelfCollision, "self-collides"},
       {Failure::kUndecided, "undecided"},
       {Failure::kJump, "jumps"},
       {Failure::kJointLimit, "breaks joint limits"},
       {Failure::kDrift, "drifts"},
+      {Failure::kOrientation, "tilts"},
   }};
   for (const auto& [kind, verdict] : kVerdicts) {
     if (failure == name_of(kind)) return verdict;
@@ -278,13 +303,18 @@ std::string pipe_legend(const std::vector<TableRow>& rows) {
 
 std::string_view success_legend() {
   return R"(Success, decided from the joint trajectory: every row present and finite, from the given start; no link in an
-obstacle at or between ticks; largest tip error at ticks within the tolerance; joint limits and velocity limit (default
-15 deg a tick) kept; and from the conduct of the run: within time and memory, inputs untouched, no hidden work.
-Self-collision is not judged.
+obstacle at or between ticks; largest tip error at ticks within the tolerance, and where the task has an orientation
+the angle of the tip too; joint limits and velocity limit (default 15 deg or 0.05 m a tick) kept; and from the
+conduct of the run: within time and memory, inputs untouched, no hidden work.
+Self-collision is judged only where the scenario asks for it; no method here avoids it.
 )";
 }
 
-std::string render_table(const std::vector<TableRow>& all_rows) {
+std::string rendered(std::string_view text, const char* rendition, bool colour) {
+  return colour ? fmt::format("\033[{}m{}\033[0m", rendition, text) : std::string(text);
+}
+
+std::string render_table(const std::vector<TableRow>& all_rows, const TableStyle& style) {
   if (all_rows.empty()) return "no runs\n";
   const std::vector<TableRow> rows = last_runs(all_rows);
   Cells heads;
@@ -306,14 +336,17 @@ std::string render_table(const std::vector<TableRow>& all_rows) {
       if (std::isfinite(row.start_error_m)) {
         start = fmt::format(", start {} off the path", length_text(row.start_error_m));
       }
-      block += line_of(mark_of(row), cells_of(row), widths) + notes_of(row);
+      block += line_of(mark_of(row), cells_of(row), widths, style.colour) + notes_of(row);
+      if (style.more) block += style.more(row);
     }
-    text += fmt::format("{}: {}{}\n", scenario_title(first, rows), first.problem, start);
-    text += line_of(' ', heads, widths) + line_of(' ', units, widths) + block + '\n';
+    text += fmt::format("{}: {}{}\n", rendered(scenario_title(first, rows), kBold, style.colour),
+                        first.problem, start);
+    if (!first.geometry.empty()) text += fmt::format("    geometry: {}\n", first.geometry);
+    text += line_of(' ', heads, widths, false) + line_of(' ', units, widths, false) + block + '\n';
   }
   text += kMarks;
-  text += success_legend();
-  text += kLegend;
+  text += rendered(success_legend(), kDim, style.colour);
+  text += rendered(kLegend, kDim, style.colour);
   text += pipe_legend(rows);
   text += time_notes(rows);
   for (const TableRow& row : firsts(rows, same_build)) text += "made by " + row.build + '\n';

@@ -34,17 +34,47 @@ std::string counted(long count, const char* thing) {
   return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
 }
 
+/// Empty if it has none, and of old records.
+std::string robot_name(const RecordValue& problem) {
+  const bool named = problem.has("robot") && !problem["robot"].is_null();
+  return named ? problem["robot"].text() : "";
+}
+
 std::string problem_text(const RecordValue& problem) {
-  std::string text = fmt::format(
-      "{}, {}, {}, {} of {:.4g} ms, tolerance {}", counted(problem["joints"].integer(), "joint"),
-      counted(problem["links"].integer(), "link"),
-      counted(std::ssize(problem["obstacles"].list()), "obstacle"),
-      counted(problem["ticks"].integer(), "tick"), 1e3 * problem["dt_s"].number(),
-      length_text(problem["tolerance_m"].number()));
+  const std::string robot = robot_name(problem);
+  std::string text = robot.empty() ? "" : robot + ", ";
+  text += fmt::format("{}, {}, {}, {} of {:.4g} ms, tolerance {}",
+                      counted(problem["joints"].integer(), "joint"),
+                      counted(problem["links"].integer(), "link"),
+                      counted(std::ssize(problem["obstacles"].list()), "obstacle"),
+                      counted(problem["ticks"].integer(), "tick"), 1e3 * problem["dt_s"].number(),
+                      length_text(problem["tolerance_m"].number()));
   const double margin = problem["margin_m"].number();
   const double radius = problem["link_radius_m"].number();
   if (margin > 0) text += fmt::format(", margin {}", length_text(margin));
   if (radius > 0) text += fmt::format(", link radius {}", length_text(radius));
+  return text;
+}
+
+/// Empty if all obstacles are ellipsoids, and of old records.
+std::string geometry_text(const RecordValue& problem) {
+  if (!problem.has("geometry") || problem["geometry"].is_null()) return "";
+  const RecordValue geometry = problem["geometry"];
+  long ellipsoids = 0, missed = 0;
+  double inflation = 0;
+  const std::vector<RecordValue> solids = geometry["solids"].list();
+  for (const RecordValue& solid : solids) {
+    ellipsoids += solid["ellipsoids"].integer();
+    inflation = std::max(inflation, solid["inflation_m"].number());
+    if (!solid["within_bounds"].boolean()) ++missed;
+  }
+  std::string text =
+      fmt::format("{} in {}, inflation up to {}, gaps narrower by up to {}",
+                  counted(std::ssize(solids), "solid"), counted(ellipsoids, "ellipsoid"),
+                  length_text(inflation), length_text(geometry["gap_lost_m"].number()));
+  const double excess = geometry["radius_excess_m"].number();
+  if (excess > 0) text += fmt::format(", link radius by up to {} more", length_text(excess));
+  if (missed > 0) text += fmt::format("; bounds not reached for {}", counted(missed, "solid"));
   return text;
 }
 
@@ -95,22 +125,39 @@ void read_claim(const RecordValue& claimed, TableRow& row) {
   }
 }
 
+/// Pairs of links that collide; none of records that did not judge them.
+std::vector<RecordValue> self_contacts(const RecordValue& judged) {
+  if (!judged.has("self_collision") || judged["self_collision"].is_null()) return {};
+  return judged["self_collision"]["contacts"].list();
+}
+
+std::string other_link_text(const RecordValue& contact) {
+  return fmt::format("link {}", contact["other_link"].integer());
+}
+
 /// Where it went wrong, by the failure that tells most; of one that only stopped early the claim has
-/// said it.
+/// said it. Which joint of an arm with prismatic ones jumped is not recorded.
 void read_place(const RecordValue& judged, TableRow& row) {
   if (row.success || row.failures.front() == name_of(Failure::kIncomplete)) return;
   row.failure_tick = -1;
   row.failure_link = 0;
   row.failure_obstacle.clear();
   const std::vector<RecordValue> contacts = judged["contacts"].list();
+  const std::vector<RecordValue> self = self_contacts(judged);
   const std::string& failure = row.failures.front();
   if (failure == name_of(Failure::kCollision) && !contacts.empty()) {
     row.failure_tick = contacts.front()["first_tick"].integer();
     row.failure_link = contacts.front()["link"].integer();
     row.failure_obstacle = contacts.front()["obstacle"].text();
+  } else if (failure == name_of(Failure::kSelfCollision) && !self.empty()) {
+    row.failure_tick = self.front()["first_tick"].integer();
+    row.failure_link = self.front()["link"].integer();
+    row.failure_obstacle = other_link_text(self.front());
   } else if (failure == name_of(Failure::kDrift)) {
     row.failure_tick = judged["tip_error_at_ticks"]["max_tick"].integer();
-  } else if (failure == name_of(Failure::kJump)) {
+  } else if (failure == name_of(Failure::kOrientation)) {
+    row.failure_tick = judged["orientation_at_ticks"]["max_tick"].integer();
+  } else if (failure == name_of(Failure::kJump) && !judged.has("max_joint_slide_tick")) {
     row.failure_tick = judged["max_joint_step_tick"].integer();
   }
 }
@@ -126,16 +173,34 @@ void read_judgement(const RecordValue& judged, TableRow& row) {
   for (const RecordValue& contact : judged["contacts"].list()) {
     row.collided.push_back(pair_text(contact));
   }
+  for (const RecordValue& contact : self_contacts(judged)) {
+    row.collided.push_back(
+        fmt::format("({}, {})", contact["link"].integer(), other_link_text(contact)));
+  }
   read_place(judged, row);
   if (row.success && !row.collided.empty()) {
     judged["contacts"].refuse("contradict judged.success");
   }
   row.tip_error_at_ticks_m = judged["tip_error_at_ticks"]["max_m"].number();
   row.tip_error_between_ticks_m = judged["tip_error_between_ticks"]["max_m"].number();
+  if (judged.has("orientation_at_ticks")) {
+    row.orientation_at_ticks_rad = judged["orientation_at_ticks"]["max_rad"].number();
+    row.orientation_between_ticks_rad = judged["orientation_between_ticks"]["max_rad"].number();
+  }
   row.start_error_m = judged["start_error_m"].number();
   row.clearance_m = judged["clearance_m"].number();
   row.touching = judged["touching"].boolean();
   row.max_joint_step_rad = judged["max_joint_step_rad"].number();
+}
+
+MotionQuality motion_quality_of(const RecordValue& motion) {
+  return {.closed_path_drift = motion["closed_path_drift_rad"].number(),
+          .closed_path_drift_joint = motion["closed_path_drift_joint_rad"].number(),
+          .manipulability_min = motion["manipulability_min"].number(),
+          .manipulability_mean = motion["manipulability_mean"].number(),
+          .singular_value_min = motion["singular_value_min_m"].number(),
+          .null_space_share = motion["null_space_share"].number(),
+          .jerk_rms = motion["jerk_rms_rad_s3"].number()};
 }
 
 /// Whether the claim agrees with the verdict, which the record says and has to be right about.
@@ -200,12 +265,14 @@ void read_times(const RecordValue& times, TableRow& row) {
 
 void read_run(const RecordValue& record, TableRow& row) {
   read_judgement(record["judged"], row);
+  if (record.has("motion")) row.motion = motion_quality_of(record["motion"]);
   row.claim_holds = read_claim_holds(record, row.success);
   const RecordValue ticks = record["ticks"];
   for (const RecordValue& pair : ticks["clamped_pairs"].list()) {
     row.clamped.push_back(fmt::format("{} x {}", pair_text(pair), pair["ticks"].integer()));
   }
   row.guard_fired = ticks["guard_fired"].integer();
+  if (ticks.has("clamp_starts")) row.clamp_starts = ticks["clamp_starts"].integer();
   if (row.success && ticks.has("increments_tick_histogram")) {
     row.increments = histogram(ticks["increments_tick_histogram"]);
     row.increments_max = ticks["increments_tick_max"].integer();
@@ -256,6 +323,8 @@ TableRow parse_run_record(std::string_view text) {
   row.scenario = record["scenario"]["name"].text();
   row.sha256 = record["scenario"]["sha256"].text();
   row.problem = problem_text(record["problem"]);
+  row.geometry = geometry_text(record["problem"]);
+  row.robot = robot_name(record["problem"]);
   row.ticks = record["problem"]["ticks"].integer();
   row.variant = record["method"]["variant"].text();
   row.changed = record["method"]["changed"].text();

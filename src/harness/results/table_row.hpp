@@ -10,6 +10,7 @@
 
 #include "bqsa/work_counters.hpp"
 #include "harness/input_error.hpp"
+#include "harness/judge/motion_quality.hpp"
 #include "harness/log_histogram.hpp"
 
 namespace bqsa::harness {
@@ -19,12 +20,14 @@ struct TableRow {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
   std::string scenario;
-  std::string sha256;   ///< of the scenario file
-  std::string problem;  ///< sizes of the problem, as text
-  std::string variant;  ///< method, with the hash of its changed parameters
-  std::string changed;  ///< those parameters
-  std::string seed;     ///< of a planning method; empty if it answers tick by tick, or is unknown
-  std::string key;      ///< CampaignPlace::key; empty if it is not of a campaign
+  std::string sha256;    ///< of the scenario file
+  std::string problem;   ///< sizes of the problem, as text
+  std::string geometry;  ///< what the ellipsoids around solids cost, as text; empty without solids
+  std::string robot;     ///< its name; empty if it has none, and of old records
+  std::string variant;   ///< method, with the hash of its changed parameters
+  std::string changed;   ///< those parameters
+  std::string seed;      ///< of a planning method; empty if it answers tick by tick, or is unknown
+  std::string key;       ///< CampaignPlace::key; empty if it is not of a campaign
   std::string disturbance;  ///< what disturbed it, as text; empty if nothing did
   std::string build;        ///< program, compiler and machine, as text
   std::string compiler;
@@ -56,8 +59,12 @@ struct TableRow {
   double start_error_m = kNone;       ///< of the tip
   double tip_error_at_ticks_m = kNone;
   double tip_error_between_ticks_m = kNone;
+  double orientation_at_ticks_rad = kNone;  ///< of tasks with an orientation
+  double orientation_between_ticks_rad = kNone;
   double clearance_m = kNone;
   double max_joint_step_rad = kNone;
+  MotionQuality motion = {};  ///< none in old records
+  double clamp_starts = kNone;
 
   /// Of ticks these are read for successes only: a run that collides, drifts or lies has none.
   double plan_s = kNone;

@@ -70,12 +70,20 @@ Polyline read_polyline(const YamlValue& value, const Units& units, int dimension
   return constant_speed(std::move(points));
 }
 
-/// CSV `t,x,y[,z]` in seconds and the scenario's unit of length, from t = 0 to t = duration.
+/// Whether the task has an orientation that only the waypoints can say.
+bool awaits_waypoints(const Turning& turning) {
+  return turning.kind != TaskKind::kPosition && turning.rotations.empty();
+}
+
+/// CSV `t,x,y[,z[,qw,qx,qy,qz]]` in seconds and the scenario's unit of length, from t = 0 to t = duration.
+/// The quaternions are there if the task's orientation awaits them.
 Polyline read_waypoints(const YamlValue& value, const Units& units, int dimension,
-                        NamedFiles& files, double duration) {
+                        NamedFiles& files, double duration, Turning& turning) {
   value.expect_keys({"kind", "file"});
+  const bool turns = awaits_waypoints(turning);
+  const std::string header = dimension == 2 ? "t,x,y" : "t,x,y,z";
   const WaypointFile file(value.get("file", "a CSV file"), files,
-                          {dimension == 2 ? "t,x,y" : "t,x,y,z"});
+                          {turns ? header + ",qw,qx,qy,qz" : header});
   constexpr double kTimeTolerance = 1e-9;  // of the duration, for times written with few digits
   Polyline line;
   for (std::size_t row = 0; row < file.rows(); ++row) {
@@ -88,25 +96,26 @@ Polyline read_waypoints(const YamlValue& value, const Units& units, int dimensio
     }
     line.points.push_back(file.point(row, dimension, units));
     line.knots.push_back(last ? 1.0 : std::min(t / duration, 1.0));
+    if (turns) add_waypoint(file, row, line.knots.back(), turning);
   }
   return line;
 }
 
 Path read_path(const YamlValue& value, const Units& units, int dimension, NamedFiles& files,
-               double duration) {
+               double duration, Turning& turning) {
   const std::string kind = value.get("kind", "the kind of the path")
                                .choice({"ellipse_arc", "circle", "line", "polyline", "waypoints"});
   if (kind == "ellipse_arc") return read_ellipse_arc(value, units, dimension);
   if (kind == "circle") return read_circle(value, units, dimension);
   if (kind == "line") return read_line(value, units, dimension);
   if (kind == "polyline") return read_polyline(value, units, dimension);
-  return read_waypoints(value, units, dimension, files, duration);
+  return read_waypoints(value, units, dimension, files, duration, turning);
 }
 
 }  // namespace
 
 Task read_task(const YamlValue& value, const Units& units, int dimension, NamedFiles& files) {
-  value.expect_keys({"path", "timing"});
+  value.expect_keys({"path", "timing", "orientation"});
   const YamlValue timing = value.get("timing", "a mapping of duration, ticks, profile");
   timing.expect_keys({"duration", "ticks", "profile"});
   const YamlValue duration = timing.get("duration", "a time in seconds");
@@ -118,8 +127,13 @@ Task read_task(const YamlValue& value, const Units& units, int dimension, NamedF
   }
   task.ticks = timing.get("ticks", "a whole number").whole_number(1, kMaxTicks);
 
+  const std::optional<YamlValue> orientation = value.find("orientation");
+  if (orientation) task.turning = read_orientation(*orientation, units, dimension);
   const YamlValue path = value.get("path", "a mapping with a kind");
-  task.path = read_path(path, units, dimension, files, task.duration);
+  task.path = read_path(path, units, dimension, files, task.duration, task.turning);
+  if (awaits_waypoints(task.turning)) {
+    orientation->fail("rpy, quaternion, or from and to, since the path has no waypoints", "none");
+  }
   if (const std::optional<YamlValue> profile = timing.find("profile")) {
     const bool linear = profile->choice({"linear", "quintic"}) == "linear";
     if (!linear && path.has("file")) profile->fail("linear, since waypoints carry their own times");

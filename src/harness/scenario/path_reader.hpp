@@ -2,6 +2,7 @@
 /// The keys of `task`.
 #pragma once
 
+#include "harness/scenario/orientation_reader.hpp"
 #include "harness/scenario/path.hpp"
 #include "harness/scenario/units.hpp"
 #include "harness/scenario/waypoint_file.hpp"
@@ -15,9 +16,10 @@ struct Task {
   Profile profile = Profile::kLinear;
   double duration = 0;  ///< [s]
   int ticks = 0;
+  Turning turning = {};  ///< orientation of the tip, if the task has one
 };
 
-/// Reads `task: {path, timing}`.
+/// Reads `task: {path, timing, orientation}`.
 /// @param dimension  of the robot's task: 2 or 3
 Task read_task(const YamlValue& value, const Units& units, int dimension, NamedFiles& files);
 

@@ -5,10 +5,17 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
+
+#include "harness/scenario/mesh_file.hpp"
+#include "harness/scenario/urdf_capsules.hpp"
+#include "harness/scenario/urdf_chain.hpp"
+#include "harness/text_file.hpp"
 
 namespace bqsa::harness {
 namespace {
@@ -20,7 +27,7 @@ void expect_joint_count(const YamlValue& value, std::size_t count) {
 }
 
 ChainDescription read_planar_chain(const YamlValue& value, const Units& units) {
-  value.expect_keys({"kind", "base", "links", "limits", "link_radius"});
+  value.expect_keys({"kind", "name", "base", "links", "limits", "link_radius"});
   const YamlValue links = value.get("links", "a list of link lengths");
   const std::vector<YamlValue> elements = links.list("a list of link lengths");
   expect_joint_count(links, elements.size());
@@ -43,7 +50,8 @@ DhRow read_row(const YamlValue& value, const Units& units) {
 
 ChainDescription read_dh_chain(const YamlValue& value, const Units& units,
                                DhConvention convention) {
-  value.expect_keys({"kind", "base", "rpy", "joints", "tool", "limits", "link_radius"});
+  value.expect_keys(
+      {"kind", "name", "base", "rpy", "joints", "tool", "tool_rpy", "limits", "link_radius"});
   ChainDescription chain;
   chain.convention = convention;
   const YamlValue joints = value.get("joints", "a list of joints");
@@ -53,6 +61,7 @@ ChainDescription read_dh_chain(const YamlValue& value, const Units& units,
   if (const auto base = value.find("base")) chain.p_WB = units.point(*base, 3);
   if (const auto rpy = value.find("rpy")) chain.R_WB = read_rpy(*rpy, units);
   if (const auto tool = value.find("tool")) chain.p_LT = units.point(*tool, 3);
+  if (const auto rpy = value.find("tool_rpy")) chain.R_LT = read_rpy(*rpy, units);
   return chain;
 }
 
@@ -123,22 +132,106 @@ JointLimits read_limits(const YamlValue& robot, const Units& units, int joints) 
   return limits;
 }
 
-ChainDescription read_chain(const YamlValue& value, const Units& units) {
+/// Where a mesh of a URDF file lies, seen from the scenario's directory: packages are not looked for, so
+/// that what stands in the package has to stand there.
+std::string mesh_path(const std::string& name) {
+  constexpr std::string_view kPackage = "package://";
+  if (name.starts_with(kPackage)) {
+    const std::size_t end = name.find('/', kPackage.size());
+    return end == std::string::npos ? "" : name.substr(end + 1);
+  }
+  if (name.find("://") == std::string::npos) return name;
+  throw InputError(
+      fmt::format("expected a mesh by package:// or a relative name, got '{}'", excerpt(name)));
+}
+
+/// Reads each mesh once.
+/// @param value  in whose name files are refused
+MeshPoints meshes(const YamlValue& value, NamedFiles& files) {
+  constexpr std::size_t kMaxBytes = std::size_t{1} << 26;
+  std::map<std::string, std::vector<Eigen::Vector3d>> known;
+  return [&value, &files, known](const std::string& name) mutable {
+    const std::filesystem::path path = mesh_path(name);
+    const auto [entry, is_new] = known.try_emplace(path.lexically_normal().string());
+    if (!is_new) return entry->second;
+    const NamedFiles::File file = files.read(value, path, kMaxBytes);
+    for (const MeshPart& part : read_mesh(file.name, file.text)) {
+      entry->second.insert(entry->second.end(), part.hull.vertices.begin(),
+                           part.hull.vertices.end());
+    }
+    return entry->second;
+  };
+}
+
+constexpr std::string_view kCapsules = "capsules";
+
+/// The part of a robot in a URDF file between two of its links, with its limits; placed in W like others.
+Robot read_urdf_robot(const YamlValue& value, const Units& units, NamedFiles& files) {
+  constexpr std::size_t kMaxBytes = std::size_t{1} << 22;
+  value.expect_keys({"kind", "name", "file", "base_link", "tip_link", "base", "rpy", "tool",
+                     "tool_rpy", "link_radius"});
+  const YamlValue file = value.get("file", "a file in URDF");
+  const std::string base_link = value.get("base_link", "the name of a link").text();
+  const std::string tip_link = value.get("tip_link", "the name of a link").text();
+  const NamedFiles::File urdf = files.read(file, kMaxBytes);
+  try {
+    UrdfChain read = read_urdf_chain(urdf.text, base_link, tip_link);
+    if (const auto base = value.find("base")) read.chain.p_WB = units.point(*base, 3);
+    if (const auto rpy = value.find("rpy")) read.chain.R_WB = read_rpy(*rpy, units);
+    if (const auto tool = value.find("tool"))
+      read.chain.p_LT += read.chain.R_LT * units.point(*tool, 3);
+    if (const auto turn = value.find("tool_rpy")) read.chain.R_LT *= read_rpy(*turn, units);
+    Robot robot{.chain = SerialChain(read.chain),
+                .limits = read.limits,
+                .joint_names = std::move(read.joints),
+                .name = is_title(read.robot) ? read.robot : ""};
+    const auto radius = value.find("link_radius");
+    if (radius && radius->is(kCapsules)) {
+      robot.link_radii = least_link_radii(urdf.text, base_link, tip_link, read.chain, read.limits,
+                                          meshes(file, files));
+    }
+    return robot;
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", urdf.name, error.what()));
+  }
+}
+
+/// Reads `link_radius`: a length, or a list of them.
+void read_link_radius(const YamlValue& value, const Units& units, Robot& robot) {
+  if (value.is(kCapsules)) value.fail("capsules for a robot of kind urdf alone");
+  if (!value.is_list()) {
+    robot.link_radius = units.radius_or_zero(value);
+    return;
+  }
+  const std::size_t links = robot.chain.links().size();
+  const std::string expected = fmt::format("a length, or a list of {}, one a link", links);
+  for (const YamlValue& element : value.list(expected, links)) {
+    robot.link_radii.push_back(units.radius_or_zero(element));
+  }
+}
+
+Robot read_arm(const YamlValue& value, const Units& units, NamedFiles& files) {
   const std::string kind =
-      value.get("kind", "planar, dh or mdh").choice({"planar", "dh", "mdh"}, {"urdf"});
-  if (kind == "planar") return read_planar_chain(value, units);
-  return read_dh_chain(value, units,
-                       kind == "dh" ? DhConvention::kStandard : DhConvention::kModified);
+      value.get("kind", "planar, dh, mdh or urdf").choice({"planar", "dh", "mdh", "urdf"});
+  if (kind == "urdf") return read_urdf_robot(value, units, files);
+  SerialChain chain(kind == "planar" ? read_planar_chain(value, units)
+                                     : read_dh_chain(value, units,
+                                                     kind == "dh" ? DhConvention::kStandard
+                                                                  : DhConvention::kModified));
+  JointLimits limits = read_limits(value, units, chain.joints());
+  return {.chain = std::move(chain), .limits = std::move(limits)};
 }
 
 }  // namespace
 
-Robot read_robot(const YamlValue& value, const Units& units) {
-  SerialChain chain(read_chain(value, units));
-  if (chain.links().empty()) value.fail("at least one link of positive length", "none");
-  JointLimits limits = read_limits(value, units, chain.joints());
-  const std::optional<YamlValue> radius = value.find("link_radius");
-  return {std::move(chain), std::move(limits), radius ? units.radius_or_zero(*radius) : 0.0};
+Robot read_robot(const YamlValue& value, const Units& units, NamedFiles& files) {
+  Robot robot = read_arm(value, units, files);
+  if (robot.chain.links().empty()) value.fail("at least one link of positive length", "none");
+  if (const auto name = value.find("name")) robot.name = name->title();
+  const auto radius = value.find("link_radius");
+  if (radius && robot.link_radii.empty()) read_link_radius(*radius, units, robot);
+  if (!robot.link_radii.empty()) robot.link_radius = std::ranges::max(robot.link_radii);
+  return robot;
 }
 
 }  // namespace bqsa::harness

@@ -2,8 +2,12 @@
 /// The keys of `robot`.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "bqsa/problem.hpp"
 #include "harness/scenario/units.hpp"
+#include "harness/scenario/waypoint_file.hpp"
 #include "harness/scenario/yaml_value.hpp"
 
 namespace bqsa::harness {
@@ -12,10 +16,13 @@ namespace bqsa::harness {
 struct Robot {
   SerialChain chain;
   JointLimits limits;
-  double link_radius = 0;  ///< [m]
+  double link_radius = 0;                     ///< of all links, or of the thickest [m]
+  std::vector<double> link_radii = {};        ///< each link's own, or none [m]
+  std::vector<std::string> joint_names = {};  ///< of a robot in URDF
+  std::string name = {};                      ///< empty if it has none
 };
 
-/// Reads `robot`: kind planar, dh or mdh.
-Robot read_robot(const YamlValue& value, const Units& units);
+/// Reads `robot`: kind planar, dh, mdh or urdf.
+Robot read_robot(const YamlValue& value, const Units& units, NamedFiles& files);
 
 }  // namespace bqsa::harness

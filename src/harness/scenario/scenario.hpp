@@ -3,10 +3,15 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "bqsa/problem.hpp"
 #include "harness/input_error.hpp"
+#include "harness/judge/self_collision.hpp"
+#include "harness/judge/true_obstacle.hpp"
+#include "harness/scenario/geometry_ledger.hpp"
 
 namespace bqsa::harness {
 
@@ -14,10 +19,18 @@ namespace bqsa::harness {
 struct Scenario {
   std::filesystem::path file;
   std::string description;
-  /// Of the bytes of this file and of the waypoint files it names, one after the other: that of the
-  /// path, then those of the obstacles in their order. As `cat FILES | sha256sum` prints it.
+  /// Of the bytes of this file and of the files it names, one after the other: that of the robot, that
+  /// of the path, then those of the obstacles in their order. As `cat FILES | sha256sum` prints it.
   std::string sha256;
-  Problem problem;  ///< its name is the scenario's
+  Problem problem;                                   ///< its name is the scenario's
+  std::vector<TrueObstacle> truth;                   ///< for the judge alone
+  std::optional<SelfCollision> self_collision = {};  ///< if it is judged, which no method is told
+  GeometryLedger geometry;
+  std::string robot_name = {};  ///< which robot the problem is about; empty if it has no name
+
+  /// Least clearance of a known solution, where the file states one [m]. It tells how narrow the
+  /// problem is at most, and decides nothing.
+  std::optional<double> reference_clearance = {};
 };
 
 struct LoadOptions {

@@ -147,4 +147,13 @@ Eigen::Matrix3d read_quaternion(const YamlValue& value) {
   return Eigen::Quaterniond(wxyz(0), wxyz(1), wxyz(2), wxyz(3)).toRotationMatrix();
 }
 
+std::optional<Eigen::Matrix3d> find_rotation(const YamlValue& value, const Units& units) {
+  const std::optional<YamlValue> rpy = value.find("rpy");
+  const std::optional<YamlValue> quaternion = value.find("quaternion");
+  if (rpy && quaternion) quaternion->fail("either rpy or quaternion", "both");
+  if (rpy) return read_rpy(*rpy, units);
+  if (quaternion) return read_quaternion(*quaternion);
+  return std::nullopt;
+}
+
 }  // namespace bqsa::harness

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 
 #include "harness/scenario/yaml_value.hpp"
@@ -68,5 +69,9 @@ Eigen::Matrix3d read_rpy(const YamlValue& value, const Units& units);
 
 /// Rotation given by `quaternion: [w, x, y, z]` of unit length.
 Eigen::Matrix3d read_quaternion(const YamlValue& value);
+
+/// Rotation given by either `rpy` or `quaternion` among the keys of a value; none if neither is
+/// there.
+std::optional<Eigen::Matrix3d> find_rotation(const YamlValue& value, const Units& units);
 
 }  // namespace bqsa::harness

@@ -47,9 +47,14 @@ NumericTable read_table(const YamlValue& value, NamedFiles& files,
 }  // namespace
 
 NamedFiles::File NamedFiles::read(const YamlValue& value, std::size_t max_bytes) {
-  const fs::path name = value.text();
+  return read(value, value.text(), max_bytes);
+}
+
+NamedFiles::File NamedFiles::read(const YamlValue& value, const fs::path& name,
+                                  std::size_t max_bytes) {
   if (!allow_outside_ && !lies_in(directory_, name)) {
-    value.fail("a file in the scenario's directory (unless --allow-outside is given)");
+    value.fail("a file in the scenario's directory (unless --allow-outside is given)",
+               excerpt(name.string()));
   }
   const fs::path path = directory_ / name;
   File file{path.string(), read_text_file(path, max_bytes)};
@@ -58,6 +63,7 @@ NamedFiles::File NamedFiles::read(const YamlValue& value, std::size_t max_bytes)
                fmt::format("{} bytes with this one", bytes_.size() + file.text.size()));
   }
   bytes_ += file.text;
+  names_.push_back(name.string());
   return file;
 }
 
@@ -99,6 +105,20 @@ double WaypointFile::angle(std::size_t row, std::size_t column, const std::strin
          units.show_angle(radians));
   }
   return radians;
+}
+
+Eigen::Quaterniond WaypointFile::quaternion(std::size_t row, std::size_t column) const {
+  Eigen::Vector4d wxyz;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::string name = std::string("q") + "wxyz"[i];
+    wxyz(static_cast<Eigen::Index>(i)) = finite(row, column + i, name);
+  }
+  const double norm = wxyz.stableNorm();
+  if (!(std::abs(norm - 1) <= kUnitTolerance)) {
+    fail(row, "qw", "a unit quaternion", fmt::format("one of length {:g}", norm));
+  }
+  wxyz /= norm;
+  return {wxyz(0), wxyz(1), wxyz(2), wxyz(3)};
 }
 
 double WaypointFile::finite(std::size_t row, std::size_t column, const std::string& name) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -33,13 +34,21 @@ class NamedFiles {
   /// and more than 64 MiB in all.
   File read(const YamlValue& value, std::size_t max_bytes);
 
+  /// Likewise a file that is named elsewhere, such as a mesh by a robot; the value is that which brings
+  /// it in, and what is refused.
+  File read(const YamlValue& value, const std::filesystem::path& name, std::size_t max_bytes);
+
   /// The bytes of all files so far, one after the other as they were read.
   const std::string& bytes() const { return bytes_; }
+
+  /// The names of all files so far, as they were given.
+  const std::vector<std::string>& names() const { return names_; }
 
  private:
   std::filesystem::path directory_;
   bool allow_outside_;
   std::string bytes_;
+  std::vector<std::string> names_;
 };
 
 /// A CSV file of 2 to 100,000 waypoints, a row each: the time in seconds, ascending, then columns
@@ -61,6 +70,9 @@ class WaypointFile {
   /// Column `column`, called `name` [rad].
   double angle(std::size_t row, std::size_t column, const std::string& name,
                const Units& units) const;
+
+  /// Rotation of the unit quaternion w, x, y, z in four columns from `column` on.
+  Eigen::Quaterniond quaternion(std::size_t row, std::size_t column) const;
 
   /// Refuses what stands in a row.
   [[noreturn]] void fail(std::size_t row, const std::string& column, const std::string& expected,

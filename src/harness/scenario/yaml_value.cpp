@@ -17,6 +17,7 @@ namespace bqsa::harness {
 namespace {
 
 constexpr std::size_t kMaxName = 64;
+constexpr std::size_t kMaxTitle = 100;
 constexpr std::size_t kMaxText = 1000;
 
 /// Number of insertions, deletions and replacements that turn one word into the other.
@@ -152,6 +153,7 @@ void YamlValue::expect_keys(const std::vector<std::string>& known) const {
 }
 
 bool YamlValue::is_mapping() const { return node_.IsMap(); }
+bool YamlValue::is_list() const { return node_.IsSequence(); }
 
 bool YamlValue::has(const std::string& key) const { return find(key).has_value(); }
 
@@ -179,6 +181,20 @@ std::vector<std::pair<std::string, YamlValue>> YamlValue::members(
   for (const auto& entry : node_) {
     const std::string& key = entry.first.Scalar();
     members.emplace_back(key, *find(key));
+  }
+  return members;
+}
+
+std::vector<std::pair<std::string, YamlValue>> YamlValue::members() const {
+  if (!node_.IsMap()) fail("a mapping");
+  std::vector<std::pair<std::string, YamlValue>> members;
+  std::set<std::string> seen;
+  for (const auto& entry : node_) {
+    if (!entry.first.IsScalar()) child(entry.first, key_).fail("a key");
+    const std::string& key = entry.first.Scalar();
+    const std::string path = path_of(excerpt(key));
+    if (!seen.insert(key).second) child(entry.first, path).fail("each key once", "a second one");
+    members.emplace_back(key, child(entry.second, path));
   }
   return members;
 }
@@ -241,6 +257,14 @@ std::string YamlValue::name() const {
   return node_.Scalar();
 }
 
+std::string YamlValue::title() const {
+  if (!node_.IsScalar() || !is_title(node_.Scalar())) {
+    fail(fmt::format("one line of 1 to {} bytes without control characters, not of spaces alone",
+                     kMaxTitle));
+  }
+  return node_.Scalar();
+}
+
 bool YamlValue::is(std::string_view word) const {
   return node_.IsScalar() && node_.Scalar() == word;
 }
@@ -258,6 +282,17 @@ std::string YamlValue::choice(std::initializer_list<std::string_view> words,
     fail(alternatives(words), found() + ", which is not supported yet");
   }
   fail(alternatives(words));
+}
+
+bool is_title(const std::string& text) {
+  return text.find_first_not_of(' ') != std::string::npos && text.size() <= kMaxTitle &&
+         !has_control_character(text);
+}
+
+std::string quoted_yaml(const std::string& line) {
+  std::string text;
+  for (const char c : line) text += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
+  return '"' + text + '"';
 }
 
 }  // namespace bqsa::harness

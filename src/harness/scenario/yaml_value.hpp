@@ -39,6 +39,7 @@ class YamlValue {
   void expect_keys(const std::vector<std::string>& known) const;
 
   bool is_mapping() const;
+  bool is_list() const;
 
   /// Whether this is a mapping that has the key.
   bool has(const std::string& key) const;
@@ -53,6 +54,9 @@ class YamlValue {
   /// Keys and values as they stand in the file, of a mapping that expect_keys() takes.
   std::vector<std::pair<std::string, YamlValue>> members(
       const std::vector<std::string>& known) const;
+
+  /// Keys and values of a mapping of any keys, each there once; anything else is refused.
+  std::vector<std::pair<std::string, YamlValue>> members() const;
 
   /// The elements of a list; anything else is refused, `expected` saying what should stand there.
   std::vector<YamlValue> list(const std::string& expected) const;
@@ -71,6 +75,9 @@ class YamlValue {
 
   /// Text of 1 to 64 of the characters a-z, 0-9 and _.
   std::string name() const;
+
+  /// Text that is_title() takes.
+  std::string title() const;
 
   /// Whether this is the word.
   bool is(std::string_view word) const;
@@ -93,5 +100,11 @@ class YamlValue {
   int line_;
   std::string key_;
 };
+
+/// Whether the text is one line of 1 to 100 bytes, not of spaces alone, without control characters.
+bool is_title(const std::string& text);
+
+/// One line without control characters as a string of YAML, in double quotes.
+std::string quoted_yaml(const std::string& line);
 
 }  // namespace bqsa::harness

@@ -9,6 +9,7 @@
 #include "support/allocation_guard.hpp"
 #include "support/closest_point_scenes.hpp"
 #include "support/distance_oracle.hpp"
+#include "support/prismatic_arms.hpp"
 
 namespace bqsa::baselines {
 namespace {
@@ -95,12 +96,41 @@ TEST(ExactDistanceSearch, FindsExactlyThePairsWithinReachWithTheirDistances) {
   EXPECT_GT(meeting, 30);
 }
 
+/// The capsules of links that change their length are as long as the pose has them.
+TEST(FclDistanceSearch, FollowsLinksThatChangeTheirLength) {
+  Generator generator(5);
+  int compared = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    Problem problem = random_closest_point_scene(generator, 2 * trial + 1);
+    problem.chain = SerialChain(test_support::random_prismatic_arm(generator, 7));
+    problem.link_radii.clear();
+    WorkCounters work;
+    FclDistanceSearch fcl(FclSolver::kIndepMillimetres, trial % 2 == 0);
+    fcl.assign(problem, 0, work);
+    for (int pose_number = 0; pose_number < 3; ++pose_number) {
+      problem.start = test_support::random_vector<7>(generator, 1);
+      const Answer exact = ask(ExactDistanceSearch(), problem, 1);
+      ChainPose pose;
+      problem.chain.forward(problem.start, pose);
+      std::vector<ClosestPoint> found;
+      fcl.search(pose, 1, found);
+      ASSERT_EQ(found.size(), exact.points.size()) << trial;
+      for (std::size_t k = 0; k < found.size(); ++k) {
+        if (exact.points[k].distance < problem.link_radius + 1e-5) continue;
+        EXPECT_NEAR(found[k].distance, exact.points[k].distance, 1.4e-7) << trial;
+        ++compared;
+      }
+    }
+  }
+  EXPECT_GT(compared, 1000);
+}
+
 /// FCL's documented tolerance for its best setting: 5e-7 mm, 1.4e-4 mm close to contact.
 TEST(FclDistanceSearch, AtItsBestAgreesWithTheExactDistance) {
   Generator generator(2);
   int apart = 0, touching = 0;
   double worst = 0;
-  for (int trial = 0; trial < 1500; ++trial) {
+  for (int trial = 0; trial < 1600; ++trial) {
     const Problem problem = random_closest_point_scene(generator, trial);
     const double exempt_length = trial % 4 == 0 ? 0 : uniform(generator, 0, 0.2);
     const int tick = trial % 5;
@@ -114,14 +144,15 @@ TEST(FclDistanceSearch, AtItsBestAgreesWithTheExactDistance) {
       const ClosestPoint& expected = exact.points[k];
       EXPECT_EQ(found.link, expected.link) << trial;
       EXPECT_EQ(found.obstacle, expected.obstacle) << trial;
-      const double gap = expected.distance - problem.link_radius;
+      const double radius = problem.radius_of(static_cast<std::size_t>(found.link));
+      const double gap = expected.distance - radius;
       if (gap > 1e-5) {
         worst = std::max(worst, std::abs(found.distance - expected.distance));
         EXPECT_LT((found.direction - expected.direction).norm(), gap > 1e-3 ? 5e-3 : 0.5) << trial;
         EXPECT_LT((on_link(problem, found) - found.p_obstacle).norm(), found.distance + 1e-4);
         ++apart;
-      } else if (gap < -1e-5 || (expected.distance == 0 && problem.link_radius == 0)) {
-        EXPECT_EQ(found.distance, problem.link_radius) << trial;
+      } else if (gap < -1e-5 || (expected.distance == 0 && radius == 0)) {
+        EXPECT_EQ(found.distance, radius) << trial;
         if (expected.distance == 0) {
           EXPECT_LT((found.direction - expected.direction).norm(), 1e-9) << trial;
           EXPECT_NEAR(found.s, expected.s, 1e-9) << trial;

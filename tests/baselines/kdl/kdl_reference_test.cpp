@@ -12,6 +12,7 @@
 #include "harness/measuring/kdl_chain.hpp"
 #include "harness/scenario/scenario.hpp"
 #include "support/near_obstacles.hpp"
+#include "support/prismatic_arms.hpp"
 #include "support/replay.hpp"
 
 namespace bqsa::baselines {
@@ -50,7 +51,8 @@ TEST(KdlReference, HasTheSameTipAndJacobianForEveryArm) {
   arms.emplace_back(elsewhere);
 
   test_support::Generator generator(1);
-  ASSERT_EQ(arms.size(), 5U);
+  arms.emplace_back(test_support::random_prismatic_arm(generator, 7));
+  ASSERT_EQ(arms.size(), 6U);
   for (const SerialChain& arm : arms) {
     const KDL::Chain chain = kdl_chain(arm.description());
     ASSERT_EQ(static_cast<int>(chain.getNrOfJoints()), arm.joints());

@@ -150,8 +150,10 @@ TEST(BqsaProjection, TurnsALinkBackToTheSideItCameFrom) {
     problem.obstacles = {{"bead", Ellipsoid(after.p_WO.col(4) - 0.1 * is, {1e-4, 1e-4, 1e-4})}};
     method.prepare(problem);
     StepOutput output;
-    method.step({tick, problem.time(tick), problem.desired_tip(problem.time(tick)),
-                 nominal[static_cast<std::size_t>(tick - 1)]},
+    method.step({.tick = tick,
+                 .t = problem.time(tick),
+                 .p_WT_desired = problem.desired_tip(problem.time(tick)),
+                 .q = nominal[static_cast<std::size_t>(tick - 1)]},
                 output);
     EXPECT_EQ(output.state, TickState::kClamped)
         << "tick " << tick << ": " << name_of(output.reason);

@@ -310,7 +310,11 @@ TEST_P(Equivalence, OfMethodsThatRunAloneAndInTurn) {
       for (Side& side : sides) {
         if (side.output.state == TickState::kInfeasible) continue;
         const double t = side.problem->time(tick);
-        side.method->step({tick, t, side.problem->desired_tip(t), side.q.back()}, side.output);
+        side.method->step({.tick = tick,
+                           .t = t,
+                           .p_WT_desired = side.problem->desired_tip(t),
+                           .q = side.q.back()},
+                          side.output);
         if (side.output.state != TickState::kInfeasible) side.q.push_back(side.output.q);
       }
     }

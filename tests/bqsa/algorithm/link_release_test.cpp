@@ -219,7 +219,7 @@ struct Bench {
     const double clearance = problem.link_radius + problem.margin;
     obstacles.assign(problem.obstacles, counters, clearance);
     obstacles.keep(clearance + settings.safety_offset);
-    release.assign(problem, obstacles, settings, counters);
+    release.assign(problem, task, obstacles, settings, counters);
   }
 
   /// From the start posture.
@@ -237,6 +237,7 @@ struct Bench {
   }
 
   Problem problem;
+  TipTask task{problem};
   BqsaSettings settings;
   WorkCounters counters;
   ObstacleField<Dim> obstacles;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "support/allocation_guard.hpp"
+#include "support/prismatic_arms.hpp"
 #include "support/replay.hpp"
 #include "support/sampling.hpp"
 
@@ -81,12 +82,14 @@ TEST(MotionCertificate, AMotionThatStartsInsideTheMarginMustNotComeCloser) {
   EXPECT_FALSE(certified(0, -0.01)) << "the radius is no margin";
 }
 
-TEST(MotionCertificate, WhatItCertifiesKeepsItsClearanceInDenseSamples) {
+/// @param random_scene  function: the problem of a trial
+template <typename Scene>
+void expect_what_is_certified_to_be_free(const Scene& random_scene, int trials) {
   Generator generator(2);
   WorkCounters counters;
   int certified = 0, sampled_free = 0, refused_hits = 0;
-  for (int trial = 0; trial < 600; ++trial) {
-    Problem problem = random_problem(generator, trial % 2 == 0);
+  for (int trial = 0; trial < trials; ++trial) {
+    Problem problem = random_scene(generator, trial);
     const double clearance = trial % 3 == 0 ? 0.01 : 0;
     problem.link_radius = clearance;
     MotionCertificate certificate;
@@ -111,6 +114,69 @@ TEST(MotionCertificate, WhatItCertifiesKeepsItsClearanceInDenseSamples) {
   EXPECT_GT(certified, sampled_free * 97 / 100);
   EXPECT_GT(certified, 100);
   EXPECT_GT(refused_hits, 50);
+}
+
+TEST(MotionCertificate, WhatItCertifiesKeepsItsClearanceInDenseSamples) {
+  expect_what_is_certified_to_be_free(
+      [](Generator& generator, int trial) { return random_problem(generator, trial % 2 == 0); },
+      600);
+}
+
+TEST(MotionCertificate, WhatItCertifiesKeepsItsClearanceWhereJointsSlide) {
+  const auto sliding = [](Generator& generator, int trial) {
+    Problem problem = random_problem(generator, false);
+    problem.chain = SerialChain(test_support::random_prismatic_arm(generator, 2 + trial % 5));
+    return problem;
+  };
+  expect_what_is_certified_to_be_free(sliding, 2200);
+}
+
+/// Link by link what it says is what it says of arms of that link's radius, whatever the others have.
+TEST(MotionCertificate, AsksOfEachLinkItsOwnRadius) {
+  Generator generator(11);
+  WorkCounters counters;
+  int certified = 0, refused = 0, differing = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    Problem problem = random_problem(generator, trial % 2 == 0);
+    problem.margin = trial % 3 == 0 ? 0.005 : 0;
+    const std::size_t links = problem.chain.links().size();
+    problem.link_radius = 0.03;
+    for (std::size_t i = 0; i < links; ++i) {
+      problem.link_radii.push_back(i == 1 ? 0.03 : uniform(generator, 0, 0.03));
+    }
+    const int n = problem.chain.joints();
+    const JointVector q0 = random_joints(generator, n, 2);
+    const JointVector q1 = q0 + random_joints(generator, n, 0.1);
+    MotionCertificate own, all_thick;
+    own.assign(problem, counters);
+    const MotionCertificate::Result result = own.certify(1, q0, q1);
+    const bool hits =
+        !test_support::sampled_hits(problem, {q0, q1}, 30, problem.link_radii).empty();
+    EXPECT_FALSE(result.certified && hits) << trial;
+    certified += result.certified;
+    refused += hits;
+    Problem thick = problem;
+    thick.link_radii.clear();
+    all_thick.assign(thick, counters);
+    differing += result.certified && !all_thick.certify(1, q0, q1).certified;
+    thick.link_radii.assign(links, 0.03);
+    own.assign(thick, counters);
+    EXPECT_EQ(own.certify(1, q0, q1).certified, all_thick.certify(1, q0, q1).certified) << trial;
+  }
+  EXPECT_GT(certified, 100);
+  EXPECT_GT(refused, 50);
+  EXPECT_GT(differing, 3);
+}
+
+/// Between its ends the link dips to y = 0, by the Coriolis acceleration alone, and hits the ball.
+TEST(MotionCertificate, RefusesASlideThatDipsIntoABall) {
+  Problem problem{.name = "dip", .chain = SerialChain(test_support::swinging_slide())};
+  problem.obstacles = {{"ball", Ellipsoid({0, -0.05, 0.15}, Eigen::Vector3d::Constant(0.06))}};
+  WorkCounters counters;
+  const JointVector q0 = Eigen::Vector2d(-0.1, -0.5), q1 = Eigen::Vector2d(0.1, 0.5);
+  EXPECT_FALSE(certify(problem, q0, q1, counters).certified);
+  problem.obstacles = {{"ball", Ellipsoid({0, -0.05, 0.15}, Eigen::Vector3d::Constant(0.04))}};
+  EXPECT_TRUE(certify(problem, q0, q1, counters).certified);
 }
 
 TEST(MotionCertificate, RefusesAMotionThatTunnelsThroughAThinSheet) {

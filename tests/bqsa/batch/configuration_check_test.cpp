@@ -274,6 +274,31 @@ TEST(EllipsoidAround, ContainsAllPointsWithinTheDistance) {
   expect_to_contain_all_points_around<3>();
 }
 
+template <int Dim>
+void expect_the_largest_excess() {
+  Generator generator(4);
+  for (int number = 0; number < 100; ++number) {
+    const auto shape = test_support::random_ellipsoid<Dim>(generator, 1e-3, 1);
+    const double distance = test_support::log_uniform(generator, 1e-4, 1);
+    const EllipsoidN<Dim> around = ellipsoid_around(shape, distance);
+    const double stated = largest_excess_around(shape, distance);
+    double largest = 0;
+    const auto look = [&](const Eigen::Matrix<double, Dim, 1>& n) {
+      const double excess = around.support(n) - (shape.support(n) + distance);
+      ASSERT_LE(excess, stated + 1e-14) << number;
+      largest = std::max(largest, excess);
+    };
+    for (int k = 0; k < 300; ++k) look(test_support::random_direction<Dim>(generator));
+    for (int k = 0; k < Dim; ++k) look(shape.rotation().col(k));
+    EXPECT_NEAR(largest, stated, 1e-13) << number;
+  }
+}
+
+TEST(EllipsoidAround, ReachesNoFurtherThanItsLargestExcess) {
+  expect_the_largest_excess<2>();
+  expect_the_largest_excess<3>();
+}
+
 TEST(EllipsoidAround, OfABallIsExact) {
   const Ellipsoid ball(Eigen::Vector3d(1, 2, 3), Eigen::Vector3d::Constant(0.3));
   const Ellipsoid around = ellipsoid_around(ball, 0.1);

@@ -48,6 +48,29 @@ TEST(Applicability, AsksForLinkRadiusAndMarginOnlyWhereTheyAreUsed) {
   EXPECT_EQ(why_not_applicable({.planar = true, .link_radius = true, .margin = true}, problem), "");
 }
 
+TEST(Applicability, AsksForOrientationOnlyWhereTheTaskHasOne) {
+  const Capabilities position{.spatial = true}, turned{.spatial = true, .orientation = true};
+  Problem problem = spatial_problem();
+  EXPECT_EQ(why_not_applicable(position, problem), "");
+  for (const TaskKind kind : {TaskKind::kAxis, TaskKind::kPose}) {
+    problem.task_kind = kind;
+    EXPECT_EQ(why_not_applicable(position, problem), "orientation tasks not supported yet");
+    EXPECT_EQ(why_not_applicable(turned, problem), "");
+  }
+}
+
+TEST(Applicability, AsksForPrismaticJointsOnlyWhereThereAreAny) {
+  const Capabilities turning{.spatial = true, .prismatic = false}, sliding{.spatial = true};
+  Problem problem = spatial_problem();
+  EXPECT_EQ(why_not_applicable(turning, problem), "");
+  ChainDescription rail;
+  rail.placements.push_back({.type = JointType::kPrismatic});
+  problem.chain = SerialChain(rail);
+  EXPECT_EQ(why_not_applicable(turning, problem), "prismatic joints not supported yet");
+  EXPECT_EQ(why_not_applicable(sliding, problem), "");
+  EXPECT_EQ(problem.max_step(0), kDefaultMaxSlide);
+}
+
 TEST(Applicability, AsksForMotionOnlyWhereAnObstacleMoves) {
   const Capabilities still{.planar = true}, moving{.planar = true, .moving = true};
   Problem problem = planar_problem();

@@ -234,7 +234,7 @@ TYPED_TEST(NearObstacles, AreThoseWithinTheBandInOrder) {
         std::vector<std::pair<int, double>> expected, got;
         for (int j = 0; j < static_cast<int>(obstacles.size()); ++j) {
           const double distance = field.proximity(pose, link, j).distance;
-          if (field.distance() - distance >= -band) expected.emplace_back(j, distance);
+          if (field.distance(link) - distance >= -band) expected.emplace_back(j, distance);
         }
         field.visit_near(pose, link, band,
                          [&](int j, const auto& near) { got.emplace_back(j, near.distance); });

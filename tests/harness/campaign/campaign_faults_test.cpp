@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <random>
 #include <thread>
 
@@ -239,7 +240,10 @@ TEST_F(CampaignTest, TwoFilesOfOneShardAreNotWrittenOver) {
 }
 
 TEST_F(CampaignTest, ShardsOnOneMachineHaveProcessorsOfTheirOwn) {
+  if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "one processor only";
   // Where processors are claimed; other tests have some of this machine's, too.
+  const char* const before = std::getenv("TMPDIR");
+  const std::string usual = before != nullptr ? before : "/tmp";
   setenv("TMPDIR", place_.path().c_str(), 1);
   RunningProgram first(words("out", {"--shard", "1/2", "--jobs", "1"}));
   RunningProgram second(words("out", {"--shard", "2/2", "--jobs", "1"}));
@@ -258,8 +262,8 @@ TEST_F(CampaignTest, ShardsOnOneMachineHaveProcessorsOfTheirOwn) {
     }
     return allowed;
   };
-  if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "one processor only";
   EXPECT_NE(processors_of(first), processors_of(second));
+  setenv("TMPDIR", usual.c_str(), 1);
 }
 
 TEST_F(CampaignTest, MergeTakesNothingButTrajectoriesAlong) {

@@ -204,7 +204,7 @@ TEST(CampaignFile, TheReferenceCampaignsCanBeLoaded) {
     EXPECT_EQ(campaign.name, entry.path().stem());
     ++campaigns;
   }
-  EXPECT_EQ(campaigns, 3);
+  EXPECT_EQ(campaigns, 5);
 }
 
 }  // namespace

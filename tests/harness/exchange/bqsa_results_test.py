@@ -1,4 +1,5 @@
 """The reader in Python, against the program and against records that are made up here."""
+import csv
 import importlib.util
 import json
 import pathlib
@@ -9,7 +10,8 @@ import tempfile
 import unittest
 import warnings
 
-from made_up_results import ROOT, call, fail, hostile_records, of_campaign, record, records, write, write_plan
+from made_up_results import (ROOT, call, fail, hostile_records, of_a_real_arm, of_campaign, record, records,
+                             write, write_plan)
 
 sys.path.insert(0, str(ROOT / "python"))
 import bqsa_results  # noqa: E402
@@ -127,8 +129,9 @@ class Loading(ReaderTest):
             loaded = self.load(runs + ["{"], ["cut short", "1 stale"])
         file = self.place.parent / "runs.csv"
         self.assertEqual(call("export", self.place, "--csv", file).returncode, 2)
-        rows = file.read_text(encoding="utf-8").splitlines()[1:]
-        self.assertEqual([run.variant for run in loaded], [row.split(",")[15] for row in rows])
+        with open(file, newline="", encoding="utf-8") as stream:
+            rows = list(csv.DictReader(stream))
+        self.assertEqual([run.variant for run in loaded], [row["variant"] for row in rows])
         self.assertEqual(len(rows), 2)
 
 
@@ -173,6 +176,15 @@ class Questions(ReaderTest):
         by_parameter = runs.group_by("method.parameters.increment")
         self.assertEqual(set(by_parameter), {None, 0.002})
         self.assertEqual(list(runs.group_by(lambda run: run.problem.dimension)), [2, 3])
+
+    def test_robots_are_told_apart_by_name(self):
+        nameless = record("qp")
+        nameless["problem"]["robot"] = None
+        runs = self.load([record(), nameless, of_a_real_arm(record()), of_a_real_arm(fail(record("qp"))),
+                          of_a_real_arm(record(), "UR5e")])
+        self.assertEqual({robot: (len(group), len(group.filter(success=True)))
+                          for robot, group in runs.group_by("robot").items()},
+                         {None: (2, 2), "KUKA LBR iiwa 14": (2, 1), "UR5e": (1, 1)})
 
     def test_filters_take_conditions_and_values(self):
         runs = self.load(records())

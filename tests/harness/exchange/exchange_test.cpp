@@ -26,13 +26,23 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
+/// A scenario that has every property.
+ExportedExperiment full_experiment() {
+  ExportedScenario scenario;
+  scenario.link_radii_m = {0.25, 0.125};
+  scenario.robot = "PUMA 560";
+  scenario.orientation = "axis";
+  scenario.orientation_tolerance_rad = 0.5;
+  scenario.reference_clearance_m = 0;
+  return {.scenario = scenario, .configurations = {}};
+}
+
 /// All names that become columns of a database.
 std::vector<std::string> column_names() {
   std::vector<std::string> names;
   for (const RunColumn& column : run_columns()) names.emplace_back(column.name);
   for (const char* name : Origin::columns()) names.emplace_back(name);
-  for (const ExperimentProperty& property :
-       arena_experiment({.scenario = {}, .configurations = {}}, {}).properties) {
+  for (const ExperimentProperty& property : arena_experiment(full_experiment(), {}).properties) {
     names.emplace_back(property.name);
   }
   return names;
@@ -58,10 +68,28 @@ TEST(Columns, AreDistinctInEachTable) {
 
 /// Columns are added to a table, and read from logs, in this order.
 TEST(Columns, OfExperimentsAreInTheOrderOfTheirNames) {
-  const auto properties = arena_experiment({.scenario = {}, .configurations = {}}, {}).properties;
+  const auto properties = arena_experiment(full_experiment(), {}).properties;
+  EXPECT_EQ(properties.size(), 20U);
   EXPECT_TRUE(std::is_sorted(properties.begin(), properties.end(), [](auto& a, auto& b) {
     return std::string(a.name) < std::string(b.name);
   }));
+}
+
+/// OMPL's script cannot read a log with a property without a value.
+TEST(Columns, OfExperimentsAreThoseThatTheScenarioHas) {
+  std::set<std::string> all, has;
+  for (const auto& property : arena_experiment(full_experiment(), {}).properties) {
+    all.insert(property.name);
+  }
+  for (const auto& property :
+       arena_experiment({.scenario = {}, .configurations = {}}, {}).properties) {
+    EXPECT_FALSE(std::holds_alternative<std::monostate>(property.value)) << property.name;
+    has.insert(property.name);
+  }
+  std::set<std::string> missing;
+  std::ranges::set_difference(all, has, std::inserter(missing, missing.end()));
+  EXPECT_THAT(missing, ElementsAre("link_radii_m", "orientation", "orientation_tolerance_rad",
+                                   "reference_clearance_m", "robot"));
 }
 
 TEST(Columns, OfTimesAreThoseOfSuccesses) {
@@ -74,10 +102,10 @@ TEST(Columns, OfTimesAreThoseOfSuccesses) {
 
 TEST(Enumerations, BeginWithSuccessAndNameEveryFailure) {
   const std::vector<std::string>& status = enumerations().front().values;
-  EXPECT_THAT(status,
-              ElementsAre("success", "disagreement", "inputs_changed", "work_hidden", "timed_out",
-                          "out_of_memory", "crashed", "not_finite", "incomplete", "wrong_start",
-                          "collision", "undecided", "jump", "joint_limit", "drift"));
+  EXPECT_THAT(status, ElementsAre("success", "disagreement", "inputs_changed", "work_hidden",
+                                  "timed_out", "out_of_memory", "crashed", "not_finite",
+                                  "incomplete", "wrong_start", "collision", "self_collision",
+                                  "undecided", "jump", "joint_limit", "drift", "orientation"));
   std::vector<std::string> names;
   for (const Enumeration& enumeration : enumerations()) {
     names.push_back(enumeration.name);

@@ -6,7 +6,8 @@ import sqlite3
 import tempfile
 import unittest
 
-from made_up_results import call, fail, hostile_records, of_campaign, record, records, write, write_plan
+from made_up_results import (call, fail, hostile_records, of_a_real_arm, of_campaign, record, records, write,
+                             write_plan)
 
 TIMES = ["time", "construct_s", "prepare_s", "plan_s", "first_step_s", "warm_median_s", "warm_p99_s",
          "warm_p999_s", "warm_max_s", "warm_max_tick", "cpu_s", "hidden_cpu_s"]
@@ -18,7 +19,9 @@ FIGURES = {
     "joint_noise_rad": "disturbance.joint_noise_rad", "latency_ticks": "disturbance.latency_ticks",
     "judged_rows": "judged.rows", "touching": "judged.touching", "clearance_m": "judged.clearance_m",
     "clearance_at_ticks_m": "judged.clearance_at_ticks_m", "start_error_m": "judged.start_error_m",
+    "self_clearance_at_ticks_m": "judged.self_collision.clearance_at_ticks_m",
     "max_joint_step_rad": "judged.max_joint_step_rad", "max_joint_step_tick": "judged.max_joint_step_tick",
+    "max_joint_slide_m": "judged.max_joint_slide_m", "max_joint_slide_tick": "judged.max_joint_slide_tick",
     "free_ticks": "ticks.free", "clamped_ticks": "ticks.clamped", "unclaimed_ticks": "ticks.unclaimed",
     "increments_total": "ticks.increments_total", "increments_max": "ticks.increments_max",
     "increments_tick_mean": "ticks.increments_tick_mean",
@@ -30,9 +33,19 @@ FIGURES = {
 FIGURES |= {f"tip_error_{where}_{figure}": f"judged.tip_error_{where}.{figure}"
             for where in ("at_ticks", "between_ticks")
             for figure in ("mean_m", "rms_m", "max_m", "max_x_m", "max_y_m", "max_z_m", "max_tick")}
+FIGURES |= {f"orientation_{where}_{figure}": f"judged.orientation_{where}.{figure}"
+            for where in ("at_ticks", "between_ticks") for figure in ("mean_rad", "max_rad", "max_tick")}
+FIGURES |= {name: f"motion.{name}"
+            for name in ("closed_path_drift_rad", "closed_path_drift_joint_rad", "manipulability_min",
+                         "manipulability_mean", "singular_value_min_m", "null_space_share",
+                         "jerk_rms_rad_s3")} | {"clamp_starts": "ticks.clamp_starts"}
 FIGURES |= {name: f"counters.{name}" for name in ("quadratics", "bounds", "point_pairs", "distance_queries",
                                                   "kinematics", "jacobians", "linear_solves", "iterations")}
 FIGURES |= {name: f"times.{name}" for name in TIMES if name != "time"} | {"time": "times.run_s"}
+# What a scenario need not have.
+PROPERTIES = {"robot": "problem.robot", "orientation": "problem.orientation",
+              "orientation_tolerance_rad": "problem.orientation_tolerance_rad",
+              "reference_clearance_m": "scenario.reference_clearance_m"}
 ENUMS = {"claim": "claimed.status", "gave_up_because": "claimed.reason", "gave_up_class": "claimed.class"}
 
 
@@ -114,6 +127,29 @@ class Database(ExportTest):
 
     def test_holds_every_figure_of_every_run(self):
         self.check_runs(records())
+
+    def test_holds_the_figures_of_the_motion(self):
+        run = record()
+        names = [path.split(".")[1] for path in FIGURES.values() if path.startswith("motion.")]
+        run["motion"] = {name: 0.1 + i for i, name in enumerate(names)} | {names[1]: None}
+        run["ticks"]["clamp_starts"] = 7
+        run["judged"]["self_collision"] = {"contacts": [], "clearance_at_ticks_m": 0.25}
+        run["judged"].update(max_joint_slide_m=0.125, max_joint_slide_tick=9)
+        self.check_runs([run, record("none")])
+
+    def test_holds_what_only_some_scenarios_have(self):
+        runs = [record(), of_a_real_arm(record("qp"))]
+        database = self.check_runs(runs)
+        plain, full = database.execute("SELECT * FROM experiments").fetchall()
+        for column, path in PROPERTIES.items():
+            self.assertEqual(plain[column], None)
+            expected_ = at(runs[1], path)
+            self.assertEqual(full[column],
+                             expected_.replace(" ", "_") if isinstance(expected_, str) else expected_, column)
+        self.assertEqual([float(word) for word in full["link_radii_m"].split()], [0.07, 0.05, 0.1 + 0.2])
+        for row, expected_ in ((plain, (0, 0, 0, 0)), (full, (0.07, 1, 0.025, 0.003))):
+            self.assertEqual(tuple(row[column] for column in ("link_radius_m", "solids", "gap_lost_m",
+                                                              "radius_excess_m")), expected_)
 
     def test_keeps_hostile_names_and_numbers(self):
         runs = hostile_records()
@@ -229,6 +265,16 @@ class CommaSeparated(ExportTest):
                     self.assertEqual(float(text), float(value), column)
             for column, path in ENUMS.items():
                 self.assertEqual(row[column], at(run, path) or "", column)
+            for column, path in PROPERTIES.items():
+                value = at(run, path)
+                self.assertEqual(row[column], printable(value) if isinstance(value, str) else
+                                 "" if value is None else repr(value), column)
+            self.assertEqual([float(word) for word in row["link_radii_m"].split()],
+                             run["problem"].get("link_radii_m", []))
+            geometry = run["problem"].get("geometry") or {}
+            self.assertEqual(int(row["solids"]), len(geometry.get("solids", [])))
+            for column in ("gap_lost_m", "radius_excess_m"):
+                self.assertEqual(float(row[column]), geometry.get(column, 0))
             self.assertEqual(row["status"], status(run))
             self.assertEqual(row["seed"], str(run["provenance"]["seed"]))
             for column, path in {"scenario": "scenario.name", "scenario_sha256": "scenario.sha256",
@@ -249,6 +295,9 @@ class CommaSeparated(ExportTest):
 
     def test_reads_back_as_the_records(self):
         self.check(records())
+
+    def test_holds_what_only_some_scenarios_have(self):
+        self.check([record(), of_a_real_arm(record("qp")), of_a_real_arm(record("none"), "a, b\nc")])
 
     def test_keeps_hostile_names_and_numbers(self):
         self.check(hostile_records())

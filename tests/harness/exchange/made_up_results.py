@@ -1,5 +1,6 @@
 """Results directories for tests: real records, changed where a test asks for it."""
 import copy
+import hashlib
 import json
 import os
 import pathlib
@@ -30,6 +31,22 @@ def fail(run, failure="drift"):
     run["claim_holds"] = run["claimed"]["status"] != "success"
     run["times"].update(valid=False, publishable=False,
                         against=["not judged a success"] + run["times"]["against"])
+    return run
+
+
+def of_a_real_arm(run, robot="KUKA LBR iiwa 14"):
+    """The run with all that a record can say of an arm with a name, thick links, an orientation and a slide."""
+    run = copy.deepcopy(run)
+    solid = {"name": "box", "kind": "box", "parts": 1, "ellipsoids": 2, "inflation_m": 0.0125,
+             "volume_ratio": 2.5, "within_bounds": True, "hull_over_mesh": None}
+    run["scenario"].update(name="shelf_s1_00001", sha256=hashlib.sha256(robot.encode()).hexdigest(),
+                           reference_clearance_m=0.0101)
+    run["problem"].update(robot=robot, link_radius_m=0.07, link_radii_m=[0.07, 0.05, 0.1 + 0.2],
+                          orientation="axis", orientation_tolerance_rad=0.02,
+                          geometry={"solids": [solid], "gap_lost_m": 0.025, "radius_excess_m": 0.003})
+    angle = {"mean_rad": 0.001, "max_rad": 0.0125, "max_tick": 17}
+    run["judged"].update(orientation_at_ticks=angle, orientation_between_ticks=angle | {"max_rad": 1 / 3},
+                         max_joint_slide_m=0.0123, max_joint_slide_tick=5)
     return run
 
 

@@ -9,7 +9,7 @@ import sys
 import tempfile
 import unittest
 
-from made_up_results import call, fail, hostile_records, record, records, write
+from made_up_results import HOSTILE, call, fail, hostile_records, of_a_real_arm, record, records, write
 
 SCRIPT = shutil.which("ompl_benchmark_statistics")
 SKIPPED = 77
@@ -80,6 +80,15 @@ class RoundTrip(unittest.TestCase):
 
     def test_hostile_names_and_numbers(self):
         runs = hostile_records()
+        self.check(runs, {"experiments": len(runs), "runs": len(runs)})
+
+    def test_scenarios_with_different_properties(self):
+        named = [of_a_real_arm(record(), name) for name in HOSTILE]
+        for i, run in enumerate(named):
+            run["scenario"]["sha256"] = f"{i:064x}"
+            for key in list(run["problem"])[-4:][:i % 5]:  # ever fewer of what need not be there
+                del run["problem"][key]
+        runs = [record(), record("qp", "puma560_wall")] + named
         self.check(runs, {"experiments": len(runs), "runs": len(runs)})
 
     def test_several_runs_of_a_planner_and_other_settings_of_its_name(self):

@@ -51,7 +51,7 @@ std::string plan_fault(const std::string& line) {
 TEST(Answers, ADescriptionBecomesAnEntry) {
   const MethodEntry entry = read_describe_answer(
       R"({"protocol": "bqsa-method/1", "name": "Mine", "summary": "does it", "source": "me 2020",
-          "kind": "planning", "capabilities": {"spatial": true, "moving": true, "keeps_limits": false},
+          "kind": "planning", "capabilities": {"spatial": true, "moving": true, "orientation": true, "keeps_limits": false},
           "parameters": [
             {"name": "gain", "unit": "1/s", "default": 0.5, "minimum": 0, "maximum": 2, "meaning": "how much"},
             {"name": "n", "default": 3, "minimum": 1, "maximum": 9, "integer": true, "meaning": "points"},
@@ -64,6 +64,7 @@ TEST(Answers, ADescriptionBecomesAnEntry) {
   EXPECT_TRUE(entry.capabilities.spatial);
   EXPECT_TRUE(entry.capabilities.moving);
   EXPECT_FALSE(entry.capabilities.margin);
+  EXPECT_TRUE(entry.capabilities.orientation);
   EXPECT_FALSE(entry.capabilities.keeps_limits);
   const ParameterValues values(entry.parameters);
   using Pair = std::pair<std::string, std::string>;
@@ -93,7 +94,7 @@ TEST(Answers, DescriptionsAreCheckedKeyByKey) {
        "capabilities.planar: expected true or false, got 1"},
       {head + R"("capabilities": {"plans": true}})",
        "capabilities: expected no keys but planar, spatial, link_radius, margin, moving, "
-       "keeps_limits, got 'plans'"},
+       "prismatic, orientation, keeps_limits, got 'plans'"},
       {planar + "{}}", "parameters: expected a list, got an object"},
       {planar + "[1]}", "parameters[0]: expected an object, got 1"},
       {parameter(R"("default": 1, "minimum": 2, "maximum": 3)"),

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "harness/scenario/scenario.hpp"
+#include "support/prismatic_arms.hpp"
 
 namespace bqsa::harness {
 namespace {
@@ -48,19 +49,35 @@ TEST(Requests, DoublesSurvive) {
 }
 
 /// The arm as a reader of the documentation builds it from `at_zero`: product of exponentials.
-Eigen::Vector3d by_exponentials(const Json& zero, std::size_t point, const JointVector& q) {
+Eigen::Vector3d by_exponentials(const Json& robot, std::size_t point, const JointVector& q) {
+  const Json& zero = robot["at_zero"];
   Eigen::Vector3d p = vector_of(zero["points"][point]);
   for (int j = zero["moving_joints"][point].get<int>() - 1; j >= 0; --j) {
     const auto joint = static_cast<std::size_t>(j);
     const Eigen::Vector3d pivot = vector_of(zero["pivots"][joint]);
-    const Eigen::AngleAxisd turn(q(j), vector_of(zero["axes"][joint]));
-    p = pivot + turn * (p - pivot);
+    const Eigen::Vector3d axis = vector_of(zero["axes"][joint]);
+    if (robot["joint_types"][joint] == "prismatic") {
+      p += q(j) * axis;
+    } else {
+      p = pivot + Eigen::AngleAxisd(q(j), axis) * (p - pivot);
+    }
   }
   return p;
 }
 
-/// The tip as a reader builds it from the Denavit-Hartenberg rows.
-Eigen::Vector3d by_rows(const Json& dh, const JointVector& q) {
+/// The tip's frame likewise.
+Eigen::Matrix3d rotation_by_exponentials(const Json& robot, const JointVector& q) {
+  Eigen::Matrix3d R = matrix_of(robot["at_zero"]["tip_rotation"]);
+  for (auto j = static_cast<std::size_t>(q.size()); j-- > 0;) {
+    if (robot["joint_types"][j] == "prismatic") continue;
+    R = Eigen::AngleAxisd(q(static_cast<Eigen::Index>(j)), vector_of(robot["at_zero"]["axes"][j])) *
+        R;
+  }
+  return R;
+}
+
+/// The tip and its frame as a reader builds them from the Denavit-Hartenberg rows.
+Eigen::Isometry3d by_rows(const Json& dh, const JointVector& q) {
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
   X.linear() = matrix_of(dh["R_WB"]);
   X.translation() = vector_of(dh["p_WB"]);
@@ -74,14 +91,23 @@ Eigen::Vector3d by_rows(const Json& dh, const JointVector& q) {
     X = dh["convention"] == "standard" ? X * z * along_z * along_x * x
                                        : X * x * along_x * z * along_z;
   }
-  return X * vector_of(dh["p_LT"]);
+  X.translate(vector_of(dh["p_LT"]));
+  X.rotate(matrix_of(dh["R_LT"]));
+  return X;
 }
 
 TEST(Requests, BothFormsOfTheRobotAreTheRobot) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> angle(-3, 3);
-  for (const char* name : {"planar_7r", "puma560_ellipsoid"}) {
-    const Problem problem = problem_of(name);
+  test_support::Generator generator(3);
+  for (const char* name : {"planar_7r", "puma560_ellipsoid", "sliding"}) {
+    Problem problem = problem_of(name == std::string("sliding") ? "puma560_wall" : name);
+    if (name == std::string("sliding")) {
+      problem.chain = SerialChain(test_support::random_prismatic_arm(generator, 6));
+    }
+    ChainDescription turned = problem.chain.description();
+    turned.R_LT = Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    problem.chain = SerialChain(turned);
     const Json robot = prepared(problem)["problem"]["robot"];
     ASSERT_EQ(robot["joints"], problem.chain.joints());
     ASSERT_EQ(robot["dimension"], problem.dimension());
@@ -93,12 +119,16 @@ TEST(Requests, BothFormsOfTheRobotAreTheRobot) {
       problem.chain.forward(q, pose);
       for (int k = 0; k < problem.chain.points(); ++k) {
         EXPECT_NEAR(
-            (by_exponentials(robot["at_zero"], static_cast<std::size_t>(k), q) - pose.p_WO.col(k))
-                .norm(),
-            0, 1e-12)
+            (by_exponentials(robot, static_cast<std::size_t>(k), q) - pose.p_WO.col(k)).norm(), 0,
+            1e-12)
             << name << ", point " << k;
       }
-      EXPECT_NEAR((by_rows(robot["denavit_hartenberg"], q) - pose.tip()).norm(), 0, 1e-12) << name;
+      const Eigen::Matrix3d R = problem.chain.tip_rotation(pose);
+      EXPECT_NEAR((rotation_by_exponentials(robot, q) - R).norm(), 0, 1e-12) << name;
+      if (robot["denavit_hartenberg"].is_null()) continue;
+      const Eigen::Isometry3d tip = by_rows(robot["denavit_hartenberg"], q);
+      EXPECT_NEAR((tip.translation() - pose.tip()).norm(), 0, 1e-12) << name;
+      EXPECT_NEAR((tip.linear() - R).norm(), 0, 1e-12) << name;
     }
     for (std::size_t i = 0; i < problem.chain.links().size(); ++i) {
       EXPECT_EQ(robot["links"][i]["number"], problem.chain.links()[i].number);
@@ -111,12 +141,15 @@ TEST(Requests, BothFormsOfTheRobotAreTheRobot) {
 TEST(Requests, TheProblemIsWhole) {
   Problem problem = problem_of("puma560_wall");
   problem.link_radius = 0.01;
+  problem.link_radii.assign(problem.chain.links().size(), 0.01);
+  problem.link_radii[1] = 0.004;
   problem.margin = 0.002;
   const Json told = prepared(problem)["problem"];
   EXPECT_EQ(told["name"], "puma560_wall");
   EXPECT_EQ(told["ticks"], problem.ticks);
   EXPECT_EQ(told["dt"].get<double>(), problem.dt);
   EXPECT_EQ(told["link_radius"].get<double>(), 0.01);
+  EXPECT_EQ(told["link_radii"].get<std::vector<double>>(), problem.link_radii);
   EXPECT_EQ(told["margin"].get<double>(), 0.002);
   EXPECT_EQ(told["tolerance"].get<double>(), problem.tolerance);
   ASSERT_EQ(told["path"].size(), static_cast<std::size_t>(problem.ticks) + 1);
@@ -138,6 +171,33 @@ TEST(Requests, TheProblemIsWhole) {
   EXPECT_EQ(vector_of(obstacle["semi_axes"]), shape.semi_axes());
   EXPECT_EQ(matrix_of(obstacle["rotation"]), shape.rotation());
   EXPECT_TRUE(obstacle["motion"].empty());
+}
+
+TEST(Requests, TheOrientationIsToldWhereTheTaskHasOne) {
+  Problem problem = problem_of("puma560_wall");
+  Json told = prepared(problem)["problem"];
+  EXPECT_EQ(told["task"], "position");
+  EXPECT_TRUE(told["rotations"].is_null());
+  problem.desired_rotation = [](double t) {
+    return Eigen::AngleAxisd(t, Eigen::Vector3d(0.6, 0, 0.8)).toRotationMatrix();
+  };
+  problem.task_kind = TaskKind::kAxis;
+  problem.orientation_tolerance = 0.03;
+  told = prepared(problem)["problem"];
+  EXPECT_EQ(told["task"], "axis");
+  EXPECT_EQ(told["orientation_tolerance"].get<double>(), 0.03);
+  ASSERT_EQ(told["rotations"].size(), static_cast<std::size_t>(problem.ticks) + 1);
+  for (int tick = 0; tick <= problem.ticks; ++tick) {
+    EXPECT_EQ(matrix_of(told["rotations"][static_cast<std::size_t>(tick)]),
+              problem.desired_rotation(problem.time(tick)));
+  }
+  problem.task_kind = TaskKind::kPose;
+  EXPECT_EQ(prepared(problem)["problem"]["task"], "pose");
+
+  const StepInput input{
+      .tick = 3, .R_WT_desired = problem.desired_rotation(0.3), .q = problem.start};
+  EXPECT_EQ(matrix_of(Json::parse(step_request(input, true))["R_WT_desired"]), input.R_WT_desired);
+  EXPECT_FALSE(Json::parse(step_request(input)).contains("R_WT_desired"));
 }
 
 TEST(Requests, LimitsAndMotionsAreToldWhereThereAreAny) {

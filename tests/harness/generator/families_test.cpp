@@ -75,7 +75,8 @@ struct Tracked {
     StepOutput output;
     for (int tick = 1; tick <= problem.ticks; ++tick) {
       const double t = problem.time(tick);
-      tracking.step({tick, t, problem.desired_tip(t), q.back()}, output);
+      tracking.step({.tick = tick, .t = t, .p_WT_desired = problem.desired_tip(t), .q = q.back()},
+                    output);
       q.push_back(output.q);
     }
     positions.resize(q.size());
@@ -396,6 +397,16 @@ TEST(NarrowFamily, LeavesAGapOfTheStatedWidth) {
     return 0;
   });
   EXPECT_EQ(checked, 60);
+}
+
+TEST(AllFamilies, WithoutSolidsNameNoRobot) {
+  for (const Family& family : families()) {
+    if (family.solids) continue;
+    for (int index = 0; index < 4; ++index) {
+      const TestDirectory directory;
+      EXPECT_EQ(directory.load(yaml_of(family.name, 1, index)).robot_name, "") << family.name;
+    }
+  }
 }
 
 /// sha256 of files that never change while the generator's version stays.

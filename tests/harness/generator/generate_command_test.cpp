@@ -111,7 +111,8 @@ TEST(GenerateCommand, RefusesWhatItCannotDo) {
   const ProgramResult family = generate("plane", "1", out);
   EXPECT_EQ(family.status, 2);
   EXPECT_THAT(family.err, HasSubstr("--family: expected one of planar, spatial, moving, singular, "
-                                    "narrow, planar_any, got plane"));
+                                    "narrow, planar_any, clutter, corridor, shelf, crossing, "
+                                    "stretched, any_arm, got plane"));
   EXPECT_EQ(generate("planar", "0", out).status, 2);
   EXPECT_EQ(generate("planar", "100001", out).status, 2);
   const ProgramResult seed = generate("planar", "1", out, "-1");

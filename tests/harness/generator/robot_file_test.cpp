@@ -49,8 +49,8 @@ struct PublishedRobot {
   Eigen::Vector3d flange;      ///< at q = 0 [m]
   std::vector<double> lower;   ///< [rad]
   std::vector<double> upper;   ///< [rad]
-  std::vector<double> speeds;  ///< [rad/s]
-  std::size_t arm;             ///< index into spatial_arms
+  std::vector<double> speeds;  ///< [rad/s]; empty if unknown
+  int joints() const { return static_cast<int>(axes.size()); }
 };
 
 void PrintTo(const PublishedRobot& robot, std::ostream* out) { *out << robot.file; }
@@ -72,8 +72,7 @@ PublishedRobot iiwa() {
           {0, 0, 1.306},
           in_radians({-170, -120, -170, -120, -170, -120, -175}),
           in_radians({170, 120, 170, 120, 170, 120, 175}),
-          in_radians({85, 85, 100, 75, 130, 135, 135}),
-          0};
+          in_radians({85, 85, 100, 75, 130, 135, 135})};
 }
 
 PublishedRobot panda() {
@@ -88,8 +87,49 @@ PublishedRobot panda() {
           {0.088, 0, 0.926},
           {-2.8973, -1.7628, -2.8973, -3.0718, -2.8973, -0.0175, -2.8973},
           {2.8973, 1.7628, 2.8973, -0.0698, 2.8973, 3.7525, 2.8973},
-          {2.1750, 2.1750, 2.1750, 2.1750, 2.6100, 2.6100, 2.6100},
-          1};
+          {2.1750, 2.1750, 2.1750, 2.1750, 2.6100, 2.6100, 2.6100}};
+}
+
+PublishedRobot ur5e() {
+  return {"ur5e.yaml",
+          {{kZ, {0, 0, 0}},
+           {-kY, {0, 0, 0.1625}},
+           {-kY, {-0.425, 0, 0.1625}},
+           {-kY, {-0.8172, 0, 0.1625}},
+           {-kZ, {-0.8172, -0.1333, 0}},
+           {-kY, {-0.8172, 0, 0.0628}}},
+          {-0.8172, -0.2329, 0.0628},
+          in_radians({-360, -360, -360, -360, -360, -360}),
+          in_radians({360, 360, 360, 360, 360, 360}),
+          in_radians({180, 180, 180, 180, 180, 180})};
+}
+
+PublishedRobot ur10e() {
+  return {"ur10e.yaml",
+          {{kZ, {0, 0, 0}},
+           {-kY, {0, 0, 0.1807}},
+           {-kY, {-0.6127, 0, 0.1807}},
+           {-kY, {-1.18425, 0, 0.1807}},
+           {-kZ, {-1.18425, -0.17415, 0}},
+           {-kY, {-1.18425, 0, 0.06085}}},
+          {-1.18425, -0.2907, 0.06085},
+          in_radians({-360, -360, -360, -360, -360, -360}),
+          in_radians({360, 360, 360, 360, 360, 360}),
+          in_radians({120, 120, 180, 180, 180, 180})};
+}
+
+PublishedRobot puma560() {
+  return {"puma560.yaml",
+          {{kZ, {0, 0, 0}},
+           {-kY, {0, 0, 0}},
+           {-kY, {0.4318, 0, 0}},
+           {kZ, {0.4521, -0.15005, 0}},
+           {-kY, {0.4521, 0, 0.4318}},
+           {kZ, {0.4521, -0.15005, 0}}},
+          {0.4521, -0.15005, 0.4318},
+          in_radians({-160, -45, -225, -110, -100, -266}),
+          in_radians({160, 225, 45, 170, 100, 266}),
+          {}};
 }
 
 class PublishedRobots : public ::testing::TestWithParam<PublishedRobot> {};
@@ -98,7 +138,7 @@ TEST_P(PublishedRobots, StandAtZeroAsPublished) {
   const RobotFile file = load_robot(kRobots / GetParam().file);
   EXPECT_EQ(file.name + ".yaml", GetParam().file);
   EXPECT_FALSE(file.source.empty());
-  const Eigen::Vector3d flange = tip_of(file.robot.chain, JointVector::Zero(7));
+  const Eigen::Vector3d flange = tip_of(file.robot.chain, JointVector::Zero(GetParam().joints()));
   EXPECT_LT((flange - GetParam().flange).norm(), 1e-12) << flange.transpose();
 }
 
@@ -107,7 +147,7 @@ TEST_P(PublishedRobots, MoveAsTheProductOfExponentials) {
   test_support::Generator generator(1);
   for (int i = 0; i < 1000; ++i) {
     const JointVector q = JointVector::NullaryExpr(
-        7, [&](Eigen::Index) { return test_support::uniform(generator, -3, 3); });
+        GetParam().joints(), [&](Eigen::Index) { return test_support::uniform(generator, -3, 3); });
     const Eigen::Vector3d expected = by_exponentials(GetParam().axes, GetParam().flange, q);
     EXPECT_LT((tip_of(file.robot.chain, q) - expected).norm(), 1e-12) << i;
   }
@@ -115,19 +155,31 @@ TEST_P(PublishedRobots, MoveAsTheProductOfExponentials) {
 
 TEST_P(PublishedRobots, HaveThePublishedLimits) {
   const JointLimits limits = load_robot(kRobots / GetParam().file).robot.limits;
-  ASSERT_EQ(limits.lower.size(), 7);
-  ASSERT_EQ(limits.upper.size(), 7);
-  ASSERT_EQ(limits.max_velocity.size(), 7);
-  for (Eigen::Index j = 0; j < 7; ++j) {
-    const auto k = static_cast<std::size_t>(j);
-    EXPECT_DOUBLE_EQ(limits.lower(j), GetParam().lower[k]) << j;
-    EXPECT_DOUBLE_EQ(limits.upper(j), GetParam().upper[k]) << j;
-    EXPECT_DOUBLE_EQ(limits.max_velocity(j), GetParam().speeds[k]) << j;
-  }
+  const auto expect = [](const JointVector& got, const std::vector<double>& published) {
+    ASSERT_EQ(static_cast<std::size_t>(got.size()), published.size());
+    for (std::size_t j = 0; j < published.size(); ++j) {
+      EXPECT_DOUBLE_EQ(got(static_cast<Eigen::Index>(j)), published[j]) << j;
+    }
+  };
+  expect(limits.lower, GetParam().lower);
+  expect(limits.upper, GetParam().upper);
+  expect(limits.max_velocity, GetParam().speeds);
 }
 
-TEST_P(PublishedRobots, ReachAsFarAsTheGeneratorSays) {
-  const Arm arm = spatial_arms(kRobots).at(GetParam().arm);
+std::string tested_name(const testing::TestParamInfo<PublishedRobot>& tested) {
+  return std::filesystem::path(tested.param.file).stem().string();
+}
+
+INSTANTIATE_TEST_SUITE_P(Robots, PublishedRobots,
+                         ::testing::Values(iiwa(), panda(), ur5e(), ur10e(), puma560()),
+                         tested_name);
+
+/// Index into spatial_arms().
+class GeneratorsArms : public ::testing::TestWithParam<std::size_t> {};
+INSTANTIATE_TEST_SUITE_P(Arms, GeneratorsArms, ::testing::Values(0U, 1U));
+
+TEST_P(GeneratorsArms, ReachAsFarAsTheGeneratorSays) {
+  const Arm arm = spatial_arms(kRobots).at(GetParam());
   const SerialChain chain(arm.chain);
   const auto distance = [&](const JointVector& q) {
     return (tip_of(chain, q) - arm.center).norm();
@@ -157,19 +209,14 @@ TEST_P(PublishedRobots, ReachAsFarAsTheGeneratorSays) {
   EXPECT_NEAR(arm.reach, farthest, 1e-6);
 }
 
-TEST_P(PublishedRobots, BeginWithinTheirLimits) {
-  const Arm arm = spatial_arms(kRobots).at(GetParam().arm);
+TEST_P(GeneratorsArms, BeginWithinTheirLimits) {
+  const Arm arm = spatial_arms(kRobots).at(GetParam());
   for (Eigen::Index j = 0; j < 7; ++j) {
     EXPECT_LE(arm.limits.lower(j), arm.start_low(j));
     EXPECT_LE(arm.start_low(j), arm.start_high(j));
     EXPECT_LE(arm.start_high(j), arm.limits.upper(j));
   }
 }
-
-INSTANTIATE_TEST_SUITE_P(Robots, PublishedRobots, ::testing::Values(iiwa(), panda()),
-                         [](const auto& tested) {
-                           return tested.param.arm == 0 ? "iiwa" : "panda";
-                         });
 
 const std::string kSmall =
     "schema: bqsa-robot/1\n"

@@ -78,6 +78,30 @@ TEST(Rounded, GivesTheNearestNumberOfSixDecimals) {
   EXPECT_EQ(rounded(Eigen::Vector3d(1e-7, 0.5, 1.0 / 3)), Eigen::Vector3d(0, 0.5, 0.333333));
 }
 
+TEST(ScenarioDraft, WritesAnyNameOfARobotSoThatItReadsBack) {
+  const TestDirectory directory;
+  ScenarioDraft draft{.name = "drafted", .description = "one", .robot = {}};
+  draft.path = CircleDraft{
+      .center = {0, 0, 0}, .radius = 1, .axis_u = {1, 0, 0}, .axis_v = {0, 1, 0}, .turn = 0.5};
+  draft.robot.rows = {{0, 0, 0, 0}};
+  draft.robot.p_LT = {1, 0, 0};
+  draft.limits = {JointVector::Constant(1, -1), JointVector::Constant(1, 1),
+                  JointVector::Constant(1, 1)};
+  draft.start = JointVector::Zero(1);
+  draft.duration = 1;
+  draft.ticks = 10;
+  draft.obstacles = {{.name = "far",
+                      .kind = ShapeKind::kSphere,
+                      .center = {9, 9, 9},
+                      .semi_axes = Eigen::Vector3d::Constant(0.1),
+                      .rotation = {1, 0, 0, 0}}};
+  for (const std::string name :
+       {"UR5e", "", "a: b # c", "\"quoted\" \\ 'n", "- [x, {y}]", "7", "Müller"}) {
+    draft.robot_name = name;
+    EXPECT_EQ(directory.load(to_yaml(draft)).robot_name, name);
+  }
+}
+
 /// The problem of a draft against that of its file, read by the loader.
 void expect_same_as_file(const ScenarioDraft& draft) {
   const TestDirectory directory;

@@ -9,6 +9,7 @@
 
 #include "harness/generator/arm.hpp"
 #include "harness/generator/scenario_draft.hpp"
+#include "harness/judge/judge.hpp"
 #include "harness/judge/judge_kinematics.hpp"
 
 namespace bqsa::harness {
@@ -196,6 +197,10 @@ TEST(Witness, KeepsClearAtEveryTick) {
       EXPECT_EQ(keeps_clear(still, visiting), step > 0) << met;
     }
   }
+}
+
+bool solves(const ArmMotion& witness, const Problem& problem) {
+  return Judge(problem).judge(witness.trajectory()).success();
 }
 
 TEST(Witness, IsJudgedBetweenTicksToo) {

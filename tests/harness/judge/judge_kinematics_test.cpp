@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "bqsa/kinematics/serial_chain.hpp"
+#include "support/prismatic_arms.hpp"
 #include "support/sampling.hpp"
 
 namespace bqsa::harness {
@@ -32,6 +33,7 @@ ChainDescription random_chain(Generator& generator, int number) {
     }
     chain.R_WB = test_support::random_rotation<3>(generator);
     chain.p_WB = test_support::random_vector<3>(generator, 1);
+    chain.R_LT = test_support::random_rotation<3>(generator);
   }
   if (number % 2 == 0) chain.p_LT = {uniform(generator, 0.1, 0.3), 0, number % 3 == 0 ? 0 : 0.1};
   return chain;
@@ -61,6 +63,7 @@ TEST(JudgeKinematics, AgreesWithTheSerialChain) {
       ASSERT_LE((positions.points[static_cast<std::size_t>(point)] - p).norm(), 1e-12)
           << "case " << k << ", point " << point;
     }
+    ASSERT_LE((judge.tip_rotation(q) - chain.tip_rotation(pose)).norm(), 1e-12) << "case " << k;
     ASSERT_EQ(judge.links().size(), chain.links().size()) << "case " << k;
     for (std::size_t i = 0; i < judge.links().size(); ++i) {
       ASSERT_EQ(judge.links()[i].number, chain.links()[i].number) << "case " << k;
@@ -91,6 +94,23 @@ TEST(JudgeKinematics, VelocityIsTheDerivativeOfThePosition) {
           << "case " << k << ", point " << point;
     }
   }
+}
+
+/// Where the slide is all of the way from the axis, the bound is the speed.
+TEST(JudgeKinematics, SpeedBoundGrowsWithWhatSlides) {
+  const ChainDescription arm = test_support::swinging_slide();
+  const JudgeKinematics judge(arm);
+  const SerialChain chain(arm);
+  const JointVector travel = Eigen::Vector2d(5, 0.7);
+  for (const int point : {2, 3}) {
+    const double tool = point == 2 ? 0 : 0.3;
+    EXPECT_EQ(judge.speed_bound(0, point, travel), 0.7 + tool);
+    EXPECT_EQ(chain.speed_bound(0, point, travel), 0.7 + tool);
+    EXPECT_EQ(judge.speed_bound(1, point, travel), 1);
+    EXPECT_EQ(chain.speed_bound(1, point, travel), 1);
+  }
+  EXPECT_EQ(judge.speed_bound(1, 1, travel), 0);
+  EXPECT_EQ(chain.speed_bound(1, 1, travel), 0);
 }
 
 TEST(JudgeKinematics, ReachBoundsTheDistanceToTheAxis) {

@@ -70,7 +70,7 @@ inline Segment segment_at(Generator& generator, const Ellipsoid& ellipsoid, doub
 
 /// A problem in an empty world, without limits, whose tip may be anywhere.
 inline Problem free_problem(ChainDescription chain, int ticks) {
-  const auto joints = static_cast<Eigen::Index>(chain.rows.size());
+  const int joints = chain.joints();
   return {.name = "test",
           .chain = SerialChain(std::move(chain)),
           .obstacles = {},

@@ -3,12 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "judge_scenes.hpp"
+#include "support/prismatic_arms.hpp"
 
 namespace bqsa::harness {
 namespace {
@@ -105,6 +107,120 @@ TEST(Judge, DriftCountsFromTheToleranceOn) {
   EXPECT_TRUE(run.judge().success());
 }
 
+/// A joint about x that carries the tip on its axis, so that it turns in place, by 2 degrees a tick.
+class TurningTip {
+ public:
+  TurningTip() : problem(test_support::free_problem(arm(), 10)) {
+    problem.desired_tip = [](double) { return Vector3d(0.5, 0, 0); };
+    problem.desired_rotation = [this](double t) { return desired(t / problem.dt); };
+    problem.task_kind = TaskKind::kPose;
+    trajectory = test_support::steady_motion(problem, JointVector::Constant(1, 2 * kDegree));
+  }
+
+  /// A placement whose z is x of the world.
+  static ChainDescription arm() {
+    ChainDescription arm;
+    Eigen::Matrix3d along_x;
+    along_x << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+    arm.placements.push_back({.R_PJ = along_x});
+    arm.p_LT << 0, 0, 0.5;
+    arm.R_LT = along_x.transpose();  // the tip's frame is the world's at first
+    return arm;
+  }
+
+  /// About x by 2 degrees a tick, and from then on `aside` about an axis of its own.
+  Eigen::Matrix3d desired(double tick) const {
+    return Eigen::AngleAxisd(aside, axis) *
+           Eigen::AngleAxisd(2 * kDegree * tick, Vector3d::UnitX()).toRotationMatrix();
+  }
+
+  Judgement judge() const { return Judge(problem).judge(trajectory); }
+
+  Problem problem;
+  Trajectory trajectory;
+  double aside = 0;
+  Vector3d axis = Vector3d::UnitX();
+};
+
+TEST(Judge, AnOrientationThatIsFollowedSucceeds) {
+  TurningTip run;
+  for (const TaskKind kind : {TaskKind::kAxis, TaskKind::kPose}) {
+    run.problem.task_kind = kind;
+    const Judgement judgement = run.judge();
+    EXPECT_TRUE(judgement.success());
+    EXPECT_LT(judgement.orientation_at_ticks.max, 1e-12);
+    EXPECT_LT(judgement.orientation_between_ticks.max, 1e-12);
+  }
+}
+
+TEST(Judge, OrientationCountsFromTheToleranceOn) {
+  TurningTip run;
+  for (const double angle : {1e-7, 0.01, 1.0, 3.0, std::numbers::pi}) {
+    run.axis = Vector3d(1, 2, -2) / 3;
+    run.aside = angle;
+    run.problem.orientation_tolerance = angle * (1 - 1e-6);
+    const Judgement beyond = run.judge();
+    EXPECT_THAT(beyond.failures, ElementsAre(Failure::kOrientation)) << angle;
+    EXPECT_NEAR(beyond.orientation_at_ticks.max, angle, 1e-12) << angle;
+    EXPECT_NEAR(beyond.orientation_at_ticks.mean, angle, 1e-12) << angle;
+    EXPECT_NEAR(beyond.orientation_between_ticks.mean, angle, 1e-12) << angle;
+    run.problem.orientation_tolerance = angle * (1 + 1e-6);
+    EXPECT_TRUE(run.judge().success()) << angle;
+    run.problem.task_kind = TaskKind::kPosition;  // nobody asked
+    run.problem.orientation_tolerance = 0;
+    EXPECT_TRUE(run.judge().success()) << angle;
+    EXPECT_EQ(run.judge().orientation_at_ticks.max, 0);
+    run.problem.task_kind = TaskKind::kPose;
+  }
+}
+
+TEST(Judge, TheSpinOfAnAxisTaskDoesNotCount) {
+  TurningTip run;
+  run.axis = Vector3d::UnitX();
+  run.aside = 0.5;
+  run.problem.orientation_tolerance = 0.4;
+  EXPECT_FALSE(run.judge().success());
+  run.problem.task_kind = TaskKind::kAxis;
+  EXPECT_FALSE(run.judge().success());
+  EXPECT_NEAR(run.judge().orientation_at_ticks.max, 0.5, 1e-12);  // z is across x
+  // Turned about its own z beforehand, the axis stays where it is.
+  run.aside = 0;
+  run.problem.desired_rotation = [&run](double t) {
+    return Eigen::Matrix3d(run.desired(t / run.problem.dt) *
+                           Eigen::AngleAxisd(0.5, Vector3d::UnitZ()).toRotationMatrix());
+  };
+  EXPECT_TRUE(run.judge().success());
+  EXPECT_LT(run.judge().orientation_at_ticks.max, 1e-12);
+  run.problem.task_kind = TaskKind::kPose;
+  EXPECT_THAT(run.judge().failures, ElementsAre(Failure::kOrientation));
+}
+
+TEST(Judge, OrientationIsReportedBetweenTicksToo) {
+  TurningTip run;
+  run.problem.desired_rotation = [&run](double t) {  // 0 at ticks
+    const double tick = t / run.problem.dt;
+    const double aside = tick > 1 ? 0.2 * std::abs(std::sin(std::numbers::pi * tick)) : 0;
+    return Eigen::Matrix3d(Eigen::AngleAxisd(aside, Vector3d::UnitY()) * run.desired(tick));
+  };
+  const Judgement judgement = run.judge();
+  EXPECT_TRUE(judgement.success());  // as between ticks the tip's path does not count either
+  EXPECT_LT(judgement.orientation_at_ticks.max, 1e-12);
+  // Of ten samples evenly within a tick the middle two are nearest to its middle.
+  EXPECT_NEAR(judgement.orientation_between_ticks.max, 0.2 * std::sin(std::numbers::pi * 5 / 11),
+              1e-12);
+  EXPECT_GE(judgement.orientation_between_ticks.max_tick, 2);
+}
+
+TEST(Judge, OneTickOffItsOrientationIsNamed) {
+  TurningTip run;
+  run.trajectory.q[7](0) += 3 * kDegree;
+  const Judgement judgement = run.judge();
+  EXPECT_THAT(judgement.failures, ElementsAre(Failure::kOrientation));
+  EXPECT_NEAR(judgement.orientation_at_ticks.max, 3 * kDegree, 1e-12);
+  EXPECT_NEAR(judgement.orientation_at_ticks.mean, 0.3 * kDegree, 1e-12);
+  EXPECT_EQ(judgement.orientation_at_ticks.max_tick, 7);
+}
+
 TEST(Judge, DriftAtTheLastTickAloneCounts) {
   TurningArm run;
   run.trajectory.q.back()(2) += 0.01;
@@ -144,12 +260,13 @@ TEST(Judge, ALinkInAnObstacleIsNamed) {
   TurningArm run;
   run.add_ball({-1, 0, 0}, 0.3);
   run.add_ball(TurningArm::tip(10), 0.005);
+  run.problem.obstacles[1].name = "other";
   const Judgement judgement = run.judge();
   EXPECT_THAT(judgement.failures, ElementsAre(Failure::kCollision));
   ASSERT_EQ(judgement.contacts.size(), 1U);
   const Contact& contact = judgement.contacts[0];
   EXPECT_EQ(contact.link, 3);
-  EXPECT_EQ(contact.obstacle, 1);
+  EXPECT_EQ(contact.obstacle, "other");
   EXPECT_TRUE(contact.at_tick);
   // The tip, 1.15 m from the base, moves by 20 mm a tick: the ball is hit at tick 10 alone.
   EXPECT_EQ(contact.ticks, 1);
@@ -431,11 +548,31 @@ TEST(Judge, PairsAreShownByTheNameOfTheObstacle) {
 }
 
 TEST(Judge, EveryFailureHasAName) {
-  for (const Failure failure : {Failure::kDisagreement, Failure::kNotFinite, Failure::kIncomplete,
-                                Failure::kWrongStart, Failure::kCollision, Failure::kUndecided,
-                                Failure::kJump, Failure::kJointLimit, Failure::kDrift}) {
+  for (const Failure failure :
+       {Failure::kDisagreement, Failure::kNotFinite, Failure::kIncomplete, Failure::kWrongStart,
+        Failure::kCollision, Failure::kUndecided, Failure::kJump, Failure::kJointLimit,
+        Failure::kDrift, Failure::kOrientation}) {
     EXPECT_STRNE(name_of(failure), "unknown");
   }
+}
+
+/// Steps of joints that turn and of those that slide are measured and limited apart.
+TEST(Judge, ASlideIsNoTurn) {
+  const Problem problem = test_support::free_problem(test_support::swinging_slide(), 2);
+  const auto judged = [&](double slide) {
+    Trajectory trajectory;
+    for (int k = 0; k <= 2; ++k) {
+      trajectory.t.push_back(problem.time(k));
+      trajectory.q.emplace_back(Eigen::Vector2d(0.1 * k, k == 2 ? 0.01 + slide : 0.01 * k));
+    }
+    return Judge(problem).judge(trajectory);
+  };
+  const Judgement free = judged(0.999 * kDefaultMaxSlide);
+  EXPECT_TRUE(free.success());
+  EXPECT_DOUBLE_EQ(free.max_joint_step, 0.1);
+  EXPECT_NEAR(free.max_joint_slide, 0.999 * kDefaultMaxSlide, 1e-15);
+  EXPECT_EQ(free.max_joint_slide_tick, 2);
+  EXPECT_THAT(judged(1.001 * kDefaultMaxSlide).failures, ElementsAre(Failure::kJump));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "harness/judge/judge.hpp"
 #include "judge_scenes.hpp"
 #include "support/distance_oracle.hpp"
+#include "support/prismatic_arms.hpp"
 
 namespace bqsa::harness {
 namespace {
@@ -33,25 +34,16 @@ JointVector random_angles(Generator& generator, int joints, double half_width) {
   return q;
 }
 
-/// A planar or spatial arm among three obstacles put near its links; thick links among spheres.
-Motion random_motion(Generator& generator, int number) {
-  const int joints = 2 + static_cast<int>(generator() % 6);
-  const bool planar = number % 2 == 0;
+/// The arm among three obstacles put near its links; thick links among spheres.
+Motion motion_among_obstacles(Generator& generator, int number, const ChainDescription& chain) {
+  const int joints = chain.joints();
+  const bool planar = chain.dimension == 2;
   const bool thick = number % 5 == 0;
-  ChainDescription chain;
-  if (planar) {
-    chain = planar_chain(std::vector<double>(static_cast<std::size_t>(joints), 0.4));
-  } else {
-    if (number % 4 == 1) chain.convention = DhConvention::kModified;
-    for (int j = 0; j < joints; ++j) {
-      chain.rows.push_back({.a = uniform(generator, 0, 0.4),
-                            .alpha = uniform(generator, -2, 2),
-                            .d = uniform(generator, 0, 0.3)});
-    }
-    chain.p_LT << 0.1, 0, 0.1;
-  }
   Motion motion{test_support::free_problem(chain, 1), {}, {}};
   if (thick) motion.problem.link_radius = 0.02;
+  for (std::size_t i = 0; number % 10 == 0 && i < motion.problem.chain.links().size(); ++i) {
+    motion.problem.link_radii.push_back(0.02 - 0.005 * static_cast<double>(i % 4));
+  }
   motion.from = random_angles(generator, joints, 1.5);
   motion.to = motion.from + random_angles(generator, joints, number % 3 == 0 ? 1.5 : 0.2);
   ChainPose pose;
@@ -77,6 +69,25 @@ Motion random_motion(Generator& generator, int number) {
   return motion;
 }
 
+/// A planar or spatial arm.
+Motion random_motion(Generator& generator, int number) {
+  const int joints = 2 + static_cast<int>(generator() % 6);
+  const bool planar = number % 2 == 0;
+  ChainDescription chain;
+  if (planar) {
+    chain = planar_chain(std::vector<double>(static_cast<std::size_t>(joints), 0.4));
+  } else {
+    if (number % 4 == 1) chain.convention = DhConvention::kModified;
+    for (int j = 0; j < joints; ++j) {
+      chain.rows.push_back({.a = uniform(generator, 0, 0.4),
+                            .alpha = uniform(generator, -2, 2),
+                            .d = uniform(generator, 0, 0.3)});
+    }
+    chain.p_LT << 0.1, 0, 0.1;
+  }
+  return motion_among_obstacles(generator, number, chain);
+}
+
 /// The same while the obstacles move and turn; every fourth of them makes only one of the two.
 Motion random_moving_scene(Generator& generator, int number) {
   Motion motion = random_motion(generator, number);
@@ -86,6 +97,17 @@ Motion random_moving_scene(Generator& generator, int number) {
     const double way = kind == 0 ? 0 : 0.3;
     const double turn = kind == 1 ? 0 : 3;
     move_obstacle(generator, planar, way, turn, motion.problem.obstacles[k]);
+  }
+  return motion;
+}
+
+/// An arm of which some joints slide, among obstacles that are at rest or move.
+Motion random_sliding_motion(Generator& generator, int number) {
+  const int joints = 2 + static_cast<int>(generator() % 6);
+  Motion motion = motion_among_obstacles(generator, number,
+                                         test_support::random_prismatic_arm(generator, joints));
+  for (Obstacle& obstacle : motion.problem.obstacles) {
+    if (number % 2 == 0) move_obstacle(generator, false, 0.3, 3, obstacle);
   }
   return motion;
 }
@@ -107,7 +129,7 @@ class DenseOracle {
       const double t =
           std::clamp((shape.center() - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
       return (a + t * (b - a) - shape.center()).norm() - shape.semi_axes().x() -
-             motion_.problem.link_radius;
+             motion_.problem.radius_of(link);
     }
     const double norm = static_cast<double>(test_support::DistanceOracle(a, b, shape).least_norm());
     return (norm - 1) * shape.semi_axes().minCoeff();
@@ -195,6 +217,14 @@ TEST(MotionCheck, AgreesWithDenseSampling) {
 TEST(MotionCheck, AgreesWithDenseSamplingOfObstaclesThatMoveAndTurn) {
   Agreement count;
   expect_agreement(random_moving_scene, 500, 1000, count);
+  EXPECT_GT(count.colliding, 300);
+  EXPECT_GT(count.free, 3000);
+  EXPECT_GT(count.missed_by_ten, 20);
+}
+
+TEST(MotionCheck, AgreesWithDenseSamplingOfJointsThatSlide) {
+  Agreement count;
+  expect_agreement(random_sliding_motion, 1500, 400, count);
   EXPECT_GT(count.colliding, 300);
   EXPECT_GT(count.free, 3000);
   EXPECT_GT(count.missed_by_ten, 20);
@@ -319,6 +349,20 @@ TEST(MotionCheck, CatchesAnEndThatCurvesIntoATurningNeedle) {
   EXPECT_EQ(colliding(0), 0U);
 }
 
+/// The slide goes through 0 while the arm turns: its end rises from a sheet's plane by the Coriolis
+/// acceleration alone, and into the sheet above.
+TEST(MotionCheck, CatchesASlideThatCurvesIntoASheet) {
+  constexpr double kGap = 0.02, kThickness = 1e-3;
+  Motion motion{test_support::free_problem(test_support::swinging_slide(), 1),
+                Eigen::Vector2d(-0.1, -0.5), Eigen::Vector2d(0.1, 0.5)};
+  motion.problem.obstacles.push_back(
+      {"sheet", Ellipsoid({0, kGap + kThickness, 0}, {2, kThickness, 2})});
+  const LinkScene scene(motion.problem);
+  const MotionVerdict verdict =
+      MotionCheck(scene).follow(motion.from, motion.to, 1, scene.pairs(), kPlenty);
+  EXPECT_EQ(verdict.colliding.size(), 2U);
+}
+
 TEST(MotionCheck, TravelBoundsTheChangeOfTheClearance) {
   Generator generator(3);
   double tightest = 0;
@@ -355,8 +399,9 @@ TEST(MotionCheck, TravelBoundsTheChangeOfTheClearance) {
 TEST(MotionCheck, TravelBoundsTheWayOfEveryPoint) {
   Generator generator(2);
   double tightest = 0;
-  for (int k = 0; k < 2000; ++k) {
-    const Motion motion = random_motion(generator, k);
+  for (int k = 0; k < 3000; ++k) {
+    const Motion motion =
+        k % 3 == 2 ? random_sliding_motion(generator, 2 * k + 1) : random_motion(generator, k);
     const LinkScene scene(motion.problem);
     const std::vector<double> travel = MotionCheck(scene).travel(motion.from, motion.to, 1);
     PointPositions first, second;

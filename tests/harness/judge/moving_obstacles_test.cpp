@@ -139,8 +139,8 @@ ShortRun random_run(Generator& generator) {
   return run;
 }
 
-std::set<std::pair<int, int>> pairs_of(const Judgement& judgement) {
-  std::set<std::pair<int, int>> pairs;
+std::set<std::pair<int, std::string>> pairs_of(const Judgement& judgement) {
+  std::set<std::pair<int, std::string>> pairs;
   for (const Contact& contact : judgement.contacts) pairs.insert({contact.link, contact.obstacle});
   return pairs;
 }

@@ -108,6 +108,25 @@ TEST_P(Bystanders, StandNearTheMotionButOutOfReach) {
   }
 }
 
+/// Else it would drift, in the hundreds of thousands of steps of a measurement, until it is near one.
+TEST_P(Bystanders, SeeTheArmComeHome) {
+  const Problem lonely = lonely_problem(GetParam());
+  int seen = 0;
+  for (const MethodEntry& entry : methods()) {
+    if (entry.capabilities.plans || !why_not_applicable(entry.capabilities, lonely).empty())
+      continue;
+    ++seen;
+    ControlLoop loop(with_defaults(entry), lonely);
+    for (int homecoming = 0; homecoming < 3; ++homecoming) {
+      loop.run(kHomecoming - 1);
+      EXPECT_LT((loop.q() - lonely.start).cwiseAbs().maxCoeff(), 0.01) << entry.name;
+      loop.run(1);
+      EXPECT_EQ(loop.q(), lonely.start) << entry.name;
+    }
+  }
+  EXPECT_GT(seen, 8);
+}
+
 TEST_P(Bystanders, AreTheFirstOfALongerList) {
   const Problem lonely = lonely_problem(GetParam());
   const std::vector<Obstacle> few = draw_bystanders(lonely, 3);

@@ -127,13 +127,16 @@ namespace {
 /// Plans have to be found, however loaded the machine is.
 constexpr ConformanceSettings kSettings{.plan_budget_s = 120, .limits = {.wall_s = 600}};
 
-/// A scene of the paper and generated ones: at rest and moving, planar and spatial, with and without
-/// limits. No method has been tuned on them.
+/// Scenes of the paper, one with prismatic joints, two with an orientation, and generated ones: at rest and moving, planar and
+/// spatial, with and without limits. No method has been tuned on them.
 const std::vector<Problem>& problems() {
   static const std::vector<Problem> kProblems = [] {
     std::vector<Problem> list{
         load_scenario(BQSA_SOURCE_DIR "/scenarios/planar_7r.yaml").problem,
-        load_scenario(BQSA_SOURCE_DIR "/scenarios/puma560_wall.yaml").problem};
+        load_scenario(BQSA_SOURCE_DIR "/scenarios/puma560_wall.yaml").problem,
+        load_scenario(BQSA_SOURCE_DIR "/tests/harness/program/rail_arm.yaml").problem,
+        load_scenario(BQSA_SOURCE_DIR "/tests/harness/program/iiwa_pose.yaml").problem,
+        load_scenario(BQSA_SOURCE_DIR "/tests/harness/program/iiwa_axis.yaml").problem};
     const TemporaryDirectory directory;
     const std::vector<Arm> arms = spatial_arms(BQSA_SOURCE_DIR "/robots");
     for (const Family& family : families()) {
@@ -219,6 +222,7 @@ TEST_P(Conformance, CountersEqualToTheCallsThatWereMade) {
         input.tick = tick;
         input.t = problem.time(tick);
         input.p_WT_desired = problem.desired_tip(input.t);
+        input.R_WT_desired = problem.rotation_at(input.t);
         output = {};
         reactive.step(input, output);
         if (output.state == TickState::kInfeasible) break;
@@ -254,6 +258,7 @@ TEST_P(Conformance, AllocationsOfWarmStepsAreReported) {
       input.tick = tick;
       input.t = problem.time(tick);
       input.p_WT_desired = problem.desired_tip(input.t);
+      input.R_WT_desired = problem.rotation_at(input.t);
       output = {};
       const test_support::AllocationGuard guard;
       reactive.step(input, output);

@@ -53,22 +53,28 @@ std::set<std::string> with_prefix(const std::string& prefix, const std::string& 
 std::set<std::string> documented_keys() {
   std::set<std::string> all = {"schema", "claim_holds", "trajectory"};
   const std::string error = "mean_m rms_m max_m max_x_m max_y_m max_z_m max_tick";
-  all.merge(with_prefix("scenario.", "name file sha256"));
-  all.merge(with_prefix("problem.",
-                        "dimension joints links obstacles[] nk ticks dt_s tolerance_m margin_m "
-                        "link_radius_m"));
+  all.merge(with_prefix("scenario.", "name file sha256 reference_clearance_m"));
+  all.merge(
+      with_prefix("problem.",
+                  "robot dimension joints links obstacles[] nk ticks dt_s tolerance_m margin_m "
+                  "link_radius_m geometry"));
   all.merge(with_prefix("method.", "name variant changed seed parameters"));
   all.merge(with_prefix("claimed.", "status tick reason link obstacle class nearest_free_rad"));
-  all.merge(with_prefix("judged.",
-                        "success failures[] rows disagreement touching clearance_at_ticks_m "
-                        "clearance_m start_error_m max_joint_step_rad max_joint_step_tick"));
+  all.merge(with_prefix(
+      "judged.",
+      "success failures[] rows self_collision disagreement touching clearance_at_ticks_m "
+      "clearance_m start_error_m max_joint_step_rad max_joint_step_tick"));
   all.merge(with_prefix("judged.contacts[].", "link obstacle first_tick at_tick ticks"));
   all.merge(with_prefix("judged.tip_error_at_ticks.", error));
   all.merge(with_prefix("judged.tip_error_between_ticks.", error));
   all.merge(with_prefix("ticks.",
-                        "free clamped unclaimed increments_total increments_max "
+                        "free clamped unclaimed clamp_starts increments_total increments_max "
                         "increments_tick_mean increments_tick_median increments_tick_p99 "
                         "increments_tick_max increments_tick_histogram[][] guard_fired"));
+  all.merge(
+      with_prefix("motion.",
+                  "closed_path_drift_rad closed_path_drift_joint_rad manipulability_min "
+                  "manipulability_mean singular_value_min_m null_space_share jerk_rms_rad_s3"));
   all.merge(with_prefix("disturbance.", "joint_noise_rad latency_ticks"));
   all.merge(with_prefix("ticks.clamped_pairs[].", "link obstacle ticks"));
   all.merge(with_prefix("counters.",
@@ -135,6 +141,29 @@ TEST_F(PairRun, RecordHasExactlyTheDocumentedKeys) {
   const StoredRun stored =
       run_pair(scenario_, judge_, scripted("sweep", sweep_and_give_up), circumstances, store);
   EXPECT_EQ(keys_of(Json::parse(stored.record)), documented_keys());
+}
+
+TEST_F(PairRun, TheOrientationIsRecordedOfTasksThatHaveOne) {
+  const Scenario scenario = load_scenario(BQSA_SOURCE_DIR "/tests/harness/program/iiwa_pose.yaml");
+  const Judge judge(scenario.problem);
+  ResultStore store(directory_.path());
+  const StoredRun stored = run_pair(scenario, judge, parse_method_spec("bqsa", methods()),
+                                    {.settings = {}, .command_line = "test"}, store);
+  const Json record = Json::parse(stored.record);
+  EXPECT_EQ(record["problem"]["orientation"], "pose");
+  EXPECT_EQ(record["problem"]["orientation_tolerance_rad"], 0.01);
+  for (const char* where : {"orientation_at_ticks", "orientation_between_ticks"}) {
+    const Json& error = record["judged"][where];
+    EXPECT_LE(error["mean_rad"].get<double>(), error["max_rad"].get<double>()) << where;
+    EXPECT_LT(error["max_rad"].get<double>(), 0.01) << where;
+    EXPECT_GT(error["max_tick"].get<int>(), 0) << where;
+  }
+  const TableRow row = parse_run_record(stored.record);
+  EXPECT_TRUE(row.success);
+  EXPECT_EQ(row.orientation_at_ticks_rad,
+            record["judged"]["orientation_at_ticks"]["max_rad"].get<double>());
+  EXPECT_EQ(row.orientation_between_ticks_rad,
+            record["judged"]["orientation_between_ticks"]["max_rad"].get<double>());
 }
 
 TEST_F(PairRun, EveryKeyOfARecordIsInTheDocument) {
@@ -223,6 +252,37 @@ TEST_F(PairRun, APairThatDoesNotFitIsNotApplicableAndNotRun) {
   EXPECT_FALSE(parse_run_record(record.dump()).applicable);
 }
 
+TEST_F(PairRun, OfSolidsRecordsWhatTheirEllipsoidsCost) {
+  EXPECT_TRUE(run(scripted("sweep", sweep_and_give_up))["problem"]["geometry"].is_null());
+  const Scenario shelf = load_scenario(BQSA_SOURCE_DIR "/scenarios/solids/ur5e_shelf.yaml");
+  ResultStore store(directory_.path());
+  const std::string text =
+      run_pair(shelf, Judge(shelf.problem, shelf.truth), with_defaults(methods().at(0)), {}, store)
+          .record;
+  const Json record = Json::parse(text);
+  const Json& geometry = record["problem"]["geometry"];
+  ASSERT_EQ(geometry["solids"].size(), 6U);
+  int ellipsoids = 0;
+  double largest = 0;
+  for (std::size_t k = 0; k < 6; ++k) {
+    const Json& solid = geometry["solids"][k];
+    EXPECT_EQ(solid["name"], shelf.truth[k].name);
+    EXPECT_EQ(solid["ellipsoids"], shelf.truth[k].count);
+    EXPECT_EQ(solid["inflation_m"], shelf.geometry.solids[k].inflation);
+    EXPECT_TRUE(solid["hull_over_mesh"].is_null());
+    ellipsoids += solid["ellipsoids"].get<int>();
+    largest = std::max(largest, solid["inflation_m"].get<double>());
+  }
+  EXPECT_EQ(geometry["gap_lost_m"], shelf.geometry.gap_lost);
+  EXPECT_EQ(geometry["radius_excess_m"], shelf.geometry.radius_excess);
+  EXPECT_EQ(static_cast<std::size_t>(ellipsoids), record["problem"]["obstacles"].size());
+  EXPECT_EQ(parse_run_record(text).geometry,
+            "6 solids in " + std::to_string(ellipsoids) + " ellipsoids, inflation up to " +
+                length_text(largest) + ", gaps narrower by up to " +
+                length_text(shelf.geometry.gap_lost) + ", link radius by up to " +
+                length_text(shelf.geometry.radius_excess) + " more");
+}
+
 TEST_F(PairRun, StoresTheTrajectoryThatWasJudged) {
   const Json record = run(scripted("sweep", sweep_and_give_up));
   EXPECT_EQ(record["trajectory"], "trajectories/planar_7r/sweep.csv");
@@ -233,6 +293,42 @@ TEST_F(PairRun, StoresTheTrajectoryThatWasJudged) {
   const Judgement again = judge_.judge(stored);
   EXPECT_EQ(again.contacts.size(), record["judged"]["contacts"].size());
   EXPECT_EQ(again.clearance, record["judged"]["clearance_m"].get<double>());
+}
+
+TEST_F(PairRun, FiguresOfTheMotionAreThoseOfTheRowsThatWereJudged) {
+  const Json record = run(scripted("sweep", sweep_and_give_up));
+  const Trajectory stored =
+      read_trajectory(directory_.path() / record["trajectory"].get<std::string>(), 7);
+  const MotionQuality motion = motion_quality(scenario_.problem, stored, 20);
+  EXPECT_EQ(record["motion"]["jerk_rms_rad_s3"].get<double>(), motion.jerk_rms);
+  EXPECT_TRUE(record["motion"]["closed_path_drift_rad"].is_null());
+  const TableRow row = parse_run_record(record.dump());
+  EXPECT_EQ(row.motion.jerk_rms, motion.jerk_rms);
+  EXPECT_EQ(row.motion.manipulability_min, motion.manipulability_min);
+  EXPECT_EQ(row.motion.manipulability_mean, motion.manipulability_mean);
+  EXPECT_EQ(row.motion.singular_value_min, motion.singular_value_min);
+  EXPECT_EQ(row.motion.null_space_share, motion.null_space_share);
+  EXPECT_GT(row.clamp_starts, 0);
+}
+
+TEST_F(PairRun, ARecordTellsWhichLinksMeetEachOther) {
+  EXPECT_TRUE(run(scripted("still", stand_still))["judged"]["self_collision"].is_null());
+  Judgement judgement;
+  judgement.failures = {Failure::kSelfCollision};
+  judgement.rows = 20;
+  judgement.self_contacts = {
+      {.first = 2, .second = 5, .first_tick = 7, .at_tick = true, .ticks = 3}};
+  judgement.self_clearance_at_ticks = -0.01;
+  const Json record = Json::parse(run_record(scenario_, scripted("a", stand_still), {}, {},
+                                             judgement, {}, machine_state(), {}, ""));
+  EXPECT_EQ(record["judged"]["self_collision"].dump(),
+            R"({"clearance_at_ticks_m":-0.01,"contacts":[{"at_tick":true,"first_tick":7,"link":2,)"
+            R"("other_link":5,"ticks":3}]})");
+  const TableRow row = parse_run_record(record.dump());
+  EXPECT_THAT(row.collided, ::testing::ElementsAre("(2, link 5)"));
+  EXPECT_EQ(row.failure_tick, 7);
+  EXPECT_EQ(row.failure_link, 2);
+  EXPECT_EQ(row.failure_obstacle, "link 5");
 }
 
 TEST_F(PairRun, AReplayedPlanIsJudgedLikeAnyOtherTrajectory) {
@@ -516,7 +612,7 @@ TEST_F(PairRun, OfTheWrongBranchTheNearestFreePostureIsRecorded) {
   const Judgement judgement = judge_.judge({{0}, {scenario.problem.start}});
   const auto recorded = [&](const std::optional<Diagnosis>& diagnosis) {
     return Json::parse(run_record(scenario, scripted("m", stand_still), outcome, diagnosis,
-                                  judgement, machine_state(), {}, ""))["claimed"];
+                                  judgement, {}, machine_state(), {}, ""))["claimed"];
   };
   EXPECT_EQ(recorded(Diagnosis{FailureClass::kBranch, 0.75})["class"], "branch");
   EXPECT_EQ(recorded(Diagnosis{FailureClass::kBranch, 0.75})["nearest_free_rad"], 0.75);
@@ -533,12 +629,32 @@ TEST_F(PairRun, ASuccessHasHistogramsOfItsTicks) {
   EXPECT_GT(row.increments_max, 0);
 }
 
+TEST_F(PairRun, ARecordSaysWhichRobotItIs) {
+  const MethodSpec none = with_defaults(methods().front());
+  const Json nameless = run(none);
+  EXPECT_TRUE(nameless["problem"]["robot"].is_null());
+  const TableRow without = parse_run_record(nameless.dump());
+  EXPECT_EQ(without.robot, "");
+  EXPECT_TRUE(without.problem.starts_with("7 joints, ")) << without.problem;
+
+  Scenario named = planar_scenario();
+  named.robot_name = "Müller's arm";
+  ResultStore store(directory_.path());
+  const Json record = Json::parse(
+      run_pair(named, judge_, none, {.settings = {}, .command_line = "test"}, store).record);
+  EXPECT_EQ(record["problem"]["robot"], "Müller's arm");
+  const TableRow row = parse_run_record(record.dump());
+  EXPECT_EQ(row.robot, "Müller's arm");
+  EXPECT_TRUE(row.problem.starts_with("Müller's arm, 7 joints, ")) << row.problem;
+}
+
 TEST(RunRecord, OldRecordsCanStillBeRead) {
   int read = 0;
   for (const StoredLine& line :
        read_lines(BQSA_SOURCE_DIR "/tests/harness/program/old_runs.jsonl")) {
     const TableRow row = parse_run_record(line.text);
     EXPECT_EQ(row.disturbance, "");
+    EXPECT_EQ(row.robot, "");
     EXPECT_TRUE(row.slowest_q.empty());
     EXPECT_EQ(row.key, "");
     EXPECT_EQ(row.repetition, 0);
@@ -557,6 +673,7 @@ TEST_F(PairRun, ARecordIsRefusedWithTheKeyThatIsWrong) {
   const std::string start = "not a run record: ";
   EXPECT_EQ(with("/schema", "other/1"), start + "schema: expected bqsa-run/1, got other/1");
   EXPECT_EQ(with("/problem", 7), start + "problem: expected an object");
+  EXPECT_EQ(with("/problem/robot", 7), start + "problem.robot: expected a text");
   EXPECT_EQ(with("/problem/ticks", -1), start + "problem.ticks: expected a whole number");
   EXPECT_EQ(with("/problem/ticks", 1e300), start + "problem.ticks: expected a whole number");
   EXPECT_EQ(with("/judged/rows", 1L << 40), start + "judged.rows: expected a whole number");

@@ -47,9 +47,11 @@ TEST_P(Everywhere, UnknownOptionsAreRefused) {
 INSTANTIATE_TEST_SUITE_P(Program, Everywhere,
                          ::testing::Values("program", "list", "run", "show", "step", "conform",
                                            "judge", "generate", "figures", "new-method",
-                                           "validate"),
+                                           "inspect-robot", "validate"),
                          [](const auto& tested) {
-                           return tested.param == "new-method" ? "new_method" : tested.param;
+                           std::string name = tested.param;
+                           std::ranges::replace(name, '-', '_');
+                           return name;
                          });
 
 struct BadCall {
@@ -170,8 +172,8 @@ TEST(Program, ListKeepsNamesApartFromWhatTheyStandFor) {
     ++names;
   }
   EXPECT_GT(names, 5);
-  EXPECT_THAT(result.out,
-              HasSubstr("for planar, spatial, link radius, margin, moving obstacles\n"));
+  EXPECT_THAT(result.out, HasSubstr("for planar, spatial, link radius, margin, moving obstacles, "
+                                    "prismatic joints\n"));
 }
 
 TEST(Program, ListLooksForScenariosWhereItIsCalled) {
@@ -235,6 +237,34 @@ TEST(Program, ValidateTakesDirectories) {
   const ProgramResult nothing = run_bqsa_bench({"validate", empty.path().string()});
   EXPECT_EQ(nothing.status, 2);
   EXPECT_THAT(nothing.err, HasSubstr("expected scenario files *.yaml, found none"));
+}
+
+TEST(Program, InspectRobotShowsTheChain) {
+  const ProgramResult puma = run_bqsa_bench({"inspect-robot", kPuma});
+  EXPECT_EQ(puma.status, 0) << puma.err;
+  EXPECT_THAT(puma.out, StartsWith("robot: 6 joints, 5 links, in space\n"));
+  const ProgramResult rail =
+      run_bqsa_bench({"inspect-robot", BQSA_SOURCE_DIR "/tests/harness/program/rail_arm.yaml"});
+  EXPECT_EQ(rail.status, 0) << rail.err;
+  EXPECT_THAT(rail.out, StartsWith("robot: 6 joints, 7 links, in space\n"));
+  EXPECT_THAT(rail.out, ContainsRegex("4 +reach +prismatic +0 mm +500 mm +2000 mm/s\n"));
+  EXPECT_THAT(rail.out,
+              ContainsRegex("5 +bend +revolute +-114.592 deg +114.592 deg +229.183 deg/s"));
+  EXPECT_THAT(rail.out, ContainsRegex("4 +400.0000[*] +20.0000\n"));
+  EXPECT_THAT(rail.out, HasSubstr("reach from the base, at most [mm]: 2850.0000\n"));
+  const std::string urdf = BQSA_SOURCE_DIR "/tests/harness/program/rail_arm.urdf";
+  const ProgramResult file =
+      run_bqsa_bench({"inspect-robot", urdf, "--base-link", "turret", "--tip-link", "tool"});
+  EXPECT_EQ(file.status, 0) << file.err;
+  EXPECT_THAT(file.out, StartsWith("robot: 4 joints, 5 links, in space\n"));
+  const ProgramResult no_links = run_bqsa_bench({"inspect-robot", urdf});
+  EXPECT_EQ(no_links.status, 2);
+  EXPECT_THAT(no_links.err, HasSubstr("expected --base-link and --tip-link for a robot in URDF"));
+  const ProgramResult bare = run_bqsa_bench(
+      {"inspect-robot", urdf, "--base-link", "rail", "--tip-link", "tool", "--capsules"});
+  EXPECT_EQ(bare.status, 2);
+  EXPECT_THAT(bare.err,
+              HasSubstr("expected collision geometry of the links from 'rail' to 'tool'"));
 }
 
 TEST(Program, ConformSaysALineALaw) {

@@ -97,6 +97,19 @@ TEST_F(Runner, StopsAtTheFirstInfeasibleTickAndKeepsTheLastSafePart) {
   EXPECT_EQ(outcome.free_ticks, 22);
 }
 
+TEST_F(Runner, CountsHowOftenAPairBeginsToBeCleared) {
+  const RunOutcome outcome =
+      run(scripted("on and off", [](const StepInput& input, StepOutput& output) {
+        stand_still(input, output);
+        const bool first = input.tick <= 3 || input.tick == 5 || input.tick == 9;
+        const bool second = input.tick == 5 || input.tick == 6;
+        if (first) record_clamp({.link = 7, .obstacle = 0}, output);
+        if (first) record_clamp({.link = 7, .obstacle = 0}, output);
+        if (second) record_clamp({.link = 7, .obstacle = 1}, output);
+      }));
+  EXPECT_EQ(outcome.clamp_starts, 3 + 1);
+}
+
 TEST_F(Runner, CountsClampsByPairAndTick) {
   const RunOutcome outcome =
       run(scripted("clamping", [](const StepInput& input, StepOutput& output) {
@@ -120,6 +133,7 @@ TEST_F(Runner, CountsClampsByPairAndTick) {
   EXPECT_EQ(outcome.clamped_pairs[1].link, 7);
   EXPECT_EQ(outcome.clamped_pairs[1].obstacle, 0);
   EXPECT_EQ(outcome.clamped_pairs[1].ticks, 10);
+  EXPECT_EQ(outcome.clamp_starts, 2);
   EXPECT_EQ(outcome.increments_total, 4 * (2 + 5 + 1) + 6 * 2);
   EXPECT_EQ(outcome.increments_max, 5);
 }

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <random>
 #include <sstream>
 
@@ -123,10 +125,123 @@ TEST(Summary, CountsByFamilyAndMethod) {
   EXPECT_THAT(text, Not(HasSubstr("! ")));
 }
 
+/// The block of the summary that begins with this head, to its empty line; empty if there is none.
+std::string block_of(const std::string& summary, const std::string& head) {
+  const std::string blocks = summary.substr(0, summary.find("Success, decided"));
+  const std::size_t begin = blocks.find('\n' + head);
+  return begin == std::string::npos
+             ? ""
+             : blocks.substr(begin + 1, blocks.find("\n\n", begin + 1) - begin);
+}
+
+TableRow on_robot(TableRow row, const std::string& robot) {
+  row.robot = robot;
+  return row;
+}
+
+/// 300 random runs, counted again by plain loops over them.
+TEST(Summary, TellsSuccessByRobot) {
+  std::mt19937 random(3);
+  const std::vector<std::string> robots = {"UR5e", "Franka", "iiwa"};
+  std::vector<TableRow> rows;
+  for (int i = 0; i < 300; ++i) {
+    const std::string scenario =
+        (random() % 2 == 0 ? "shelf_s1_" : "clutter_s1_") + std::to_string(i);
+    const std::string method = random() % 3 == 0 ? "bqsa" : "qp";
+    TableRow row = random() % 4 == 0 ? failed(scenario, method, Failure::kCollision)
+                                     : success(scenario, method);
+    row.applicable = random() % 10 != 0;
+    rows.push_back(on_robot(row, robots[random() % 3]));
+  }
+  const std::string block = block_of(render_summary(rows), "by robot ");
+  std::istringstream head(block);
+  std::vector<std::string> shown;
+  for (std::string word; shown.size() < 5 && head >> word;) shown.push_back(word);
+  ASSERT_EQ(shown.size(), 5U) << block;
+  shown.erase(shown.begin(), shown.begin() + 2);  // by, robot
+  EXPECT_THAT(shown, testing::UnorderedElementsAreArray(robots));
+
+  int cells = 0;
+  for (const std::string family : {"shelf", "clutter"}) {
+    const std::string of_family = block.substr(block.find('\n' + family + ' '));
+    std::vector<std::string> counts = words_of(of_family, family);
+    for (std::size_t r = 0; r < 3; ++r) {
+      int least = 1000, most = 0;
+      for (const std::string method : {"bqsa", "qp"}) {
+        int runs = 0, successes = 0;
+        for (const TableRow& row : rows) {
+          const bool counts_here = row.applicable && row.scenario.starts_with(family + "_") &&
+                                   row.variant == method && row.robot == shown[r];
+          runs += counts_here ? 1 : 0;
+          successes += counts_here && row.success ? 1 : 0;
+        }
+        least = std::min(least, runs);
+        most = std::max(most, runs);
+        char percent[16];
+        std::snprintf(percent, sizeof percent, "%.1f", 100.0 * successes / runs);
+        EXPECT_EQ(words_of(of_family, method).at(r), percent) << family << method << shown[r];
+        ++cells;
+      }
+      EXPECT_THAT(counts, testing::IsSupersetOf({std::to_string(least), std::to_string(most)}));
+    }
+  }
+  EXPECT_EQ(cells, 12);
+}
+
+TEST(Summary, ByRobotLeavesOutWhatHasNothingToCompare) {
+  const auto block = [](const std::vector<TableRow>& rows) {
+    return block_of(render_summary(rows), "by robot ");
+  };
+  const TableRow a = on_robot(success("shelf_s1_1", "bqsa"), "A");
+  const TableRow b = on_robot(failed("shelf_s1_2", "bqsa", Failure::kDrift), "B");
+  EXPECT_EQ(block({a, success("shelf_s1_2", "bqsa")}), "");  // one of them has no name
+  EXPECT_EQ(block({a, on_robot(b, "A")}), "");               // one robot
+  TableRow other = b;
+  other.scenario = "clutter_s1_2";
+  EXPECT_EQ(block({a, other}), "");  // one a family
+  TableRow misfit = b;
+  misfit.applicable = false;
+  EXPECT_EQ(block({a, misfit}), "");
+  EXPECT_EQ(block({a, b, on_robot(other, "C"), success("shelf_s1_3", "bqsa"),
+                   on_robot(success("shelf_s1_3", "qp"), "B")}),
+            "by robot      A      B\n"
+            "[%]\n"
+            "shelf     1 run  1 run\n"
+            "  bqsa    100.0    0.0\n"
+            "  qp          -  100.0\n");
+}
+
+TEST(Summary, ByRobotShortensNamesAndFitsItsWidth) {
+  std::vector<TableRow> rows;
+  const std::vector<std::string> robots = {"KUKA LBR iiwa 14",
+                                           "Universal Robots UR10e",
+                                           std::string(100, 'm'),
+                                           "München-Schwabing-Freimann-Ärztehaus-Löwe",
+                                           "Unimation PUMA 560, refitted for the laboratory",
+                                           "Sixth",
+                                           "Seventh"};
+  for (std::size_t i = 0; i < 7 * 12345; i += 1 + i / 7) {
+    const std::string method = i % 2 == 0 ? "bqsa" : "test_point@9735da8b+noise=0.001+seed=12345";
+    rows.push_back(on_robot(success("a_family_s1_" + std::to_string(i), method), robots[i % 7]));
+  }
+  const std::string text = render_summary(rows);
+  const std::string block = block_of(text, "by robot ");
+  EXPECT_THAT(block, HasSubstr("  KUKA LBR iiwa 14  Universal Robots  "));
+  EXPECT_THAT(block, HasSubstr("  mmmmmmm..mmmmmmm  "));
+  EXPECT_THAT(block, HasSubstr("  Münche..s-Löwe  "));
+  const std::string below = text.substr(text.find(block) + block.size());
+  EXPECT_THAT(block_of(below, "by robot "), testing::ContainsRegex("  Sixth +Seventh\n"));
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    const auto columns = std::ranges::count_if(line, [](char c) { return (c & 0xc0) != 0x80; });
+    EXPECT_LE(columns, 120) << line;
+  }
+}
+
 TEST(Summary, EveryFailureHasAColumn) {
   std::vector<TableRow> rows;
   const auto named = [&rows] { return "a_" + std::to_string(rows.size()); };
-  for (int i = 0; i <= static_cast<int>(Failure::kDrift); ++i) {
+  for (int i = 0; i <= static_cast<int>(Failure::kOrientation); ++i) {
     rows.push_back(failed(named(), "m", static_cast<Failure>(i)));
   }
   for (int i = 0; i <= static_cast<int>(Infeasible::kDiverged); ++i) {
@@ -205,6 +320,53 @@ TEST(Summary, FiguresAreTheWorstOfTheSuccessesAndTheirMedianError) {
   worse.clearance_m = -1;
   EXPECT_THAT(words_of(render_summary({one, two, worse}), "m", 2),
               ElementsAre("0.2", "0.3", "0.4", "2", "5.73", "100", "4", "20", "20"));
+}
+
+/// A success and figures of its motion.
+TableRow moving(const std::string& scenario, double size) {
+  TableRow row = success(scenario, "m");
+  row.motion = {.closed_path_drift = size,
+                .closed_path_drift_joint = size / 2,
+                .manipulability_min = 2 * size,
+                .manipulability_mean = 3 * size,
+                .singular_value_min = 4 * size,
+                .null_space_share = size / 10,
+                .jerk_rms = 100 * size};
+  row.clamp_starts = 3;
+  return row;
+}
+
+TEST(Summary, FiguresOfTheMotionAreMediansOfTheSuccessesThatHaveThem) {
+  TableRow open = moving("a_4", 9);
+  open.motion.closed_path_drift = TableRow::kNone;
+  TableRow bad = moving("a_6", 1000);
+  bad.success = false;
+  bad.failures = {name_of(Failure::kDrift)};
+  const std::string text = render_summary(
+      {moving("a_1", 1), moving("a_2", 2), moving("a_3", 3), open, success("a_5", "m"), bad});
+  const std::string block = text.substr(text.find("\nmotion "));
+  EXPECT_THAT(words_of(block, "m"), ElementsAre("115", "5", "7.5", "10", "25", "250"));
+}
+
+TEST(Summary, OldRecordsHaveNoFiguresOfTheMotion) {
+  const std::string text = render_summary({success("a_1", "m")});
+  EXPECT_EQ(text.find("\nmotion     "), text.rfind("\nmotion ")) << "but for the legend";
+}
+
+TEST(Motions, AreListedByRun) {
+  TableRow bad = moving("a_2", 3);
+  bad.success = false;
+  bad.failures = {name_of(Failure::kCollision)};
+  TableRow none = success("a_3", "m");
+  none.applicable = none.success = false;
+  const std::string text = render_motions({moving("a_1", 2), bad, none, success("a_4", "m")});
+  EXPECT_THAT(words_of(text, "a_1"),
+              ElementsAre("m", "success", "115", "57.3", "4", "6", "8", "20", "200", "3"));
+  EXPECT_THAT(words_of(text, "a_2"),
+              ElementsAre("m", "collides", "172", "85.9", "6", "9", "12", "30", "300", "3"));
+  EXPECT_EQ(words_of(text, "a_3").front(), "no such line");
+  EXPECT_THAT(words_of(text, "a_4"),
+              ElementsAre("m", "success", "-", "-", "-", "-", "-", "-", "-", "-"));
 }
 
 TEST(Summary, EachSeedOfAPlannerIsARunAndTimesOfPlansAreOfSuccesses) {

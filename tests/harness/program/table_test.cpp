@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <numbers>
 #include <sstream>
 
 #include "harness/judge/judge.hpp"
@@ -51,11 +52,32 @@ std::string line_of(const std::string& table, const std::string& variant) {
   return "no row of " + variant;
 }
 
+TEST(Table, ShowsHowFarATipIsTurnedAwayOfTasksWithAnOrientation) {
+  TableRow row = success("a", "good");
+  EXPECT_EQ(render_table({row}).find("turned away"), std::string::npos);
+  row.orientation_at_ticks_rad = std::numbers::pi / 180;
+  row.orientation_between_ticks_rad = std::numbers::pi / 90;
+  EXPECT_NE(render_table({row}).find("tip turned away [deg]: 1 at ticks | 2 between\n"),
+            std::string::npos);
+  EXPECT_EQ(verdict_of("orientation"), "tilts");
+}
+
 TEST(Table, ShowsASuccessWithItsFiguresInMillimetresDegreesAndMicroseconds) {
   const std::string line = line_of(render_table({success("a", "good")}), "good");
   EXPECT_THAT(line,
               ::testing::MatchesRegex(
                   R"(\+   good +success +0\.00123 \| +0\.02 +12\.3 +1\.15 +4\.5 +65 +success)"));
+}
+
+TEST(Table, SaysWhatTheGeometryCostsOnceAScenario) {
+  TableRow row = success("a", "good");
+  EXPECT_THAT(render_table({row}), Not(HasSubstr("geometry")));
+  row.geometry = "2 solids in 5 ellipsoids";
+  TableRow other = row;
+  other.variant = "better";
+  const std::string table = render_table({row, other});
+  EXPECT_THAT(table, HasSubstr("\n    geometry: 2 solids in 5 ellipsoids\n"));
+  EXPECT_EQ(table.find("geometry:"), table.rfind("geometry:"));
 }
 
 TEST(Table, SaysThatAMethodLies) {
@@ -149,7 +171,7 @@ TEST(Table, LongLengthsAreInMetres) {
 
 TEST(Table, TheLegendExplainsEveryVerdict) {
   const std::string table = render_table({success("a", "good")});
-  for (int i = 0; i <= static_cast<int>(Failure::kDrift); ++i) {
+  for (int i = 0; i <= static_cast<int>(Failure::kOrientation); ++i) {
     EXPECT_THAT(table, HasSubstr(verdict_of(name_of(static_cast<Failure>(i)))));
   }
 }

@@ -76,12 +76,15 @@ inline Scenario quiet_scenario() {
   Scenario scenario{.file = "quiet.yaml",
                     .description = "",
                     .sha256 = "",
-                    .problem = {"quiet", SerialChain(planar_chain({0.5, 0.5}))}};
+                    .problem = {"quiet", SerialChain(planar_chain({0.5, 0.5}))},
+                    .truth = {},
+                    .geometry = {}};
   Problem& problem = scenario.problem;
   problem.ticks = 20;
   problem.dt = 0.05;
   problem.start = Eigen::Vector2d(0, 0.5);
   problem.obstacles = {{"far", embedded(rotated_ellipse({-2, -2}, {0.1, 0.1}, 0))}};
+  scenario.truth = ellipsoids_as_told(problem);
   const SerialChain chain = problem.chain;
   // The first joint turns by 0.6 rad in all, the second keeps still.
   problem.desired_tip = [chain](double t) -> Eigen::Vector3d {

@@ -17,7 +17,7 @@ def main(source: pathlib.Path) -> int:
     validator = jsonschema.Draft202012Validator(schema)
     failures = []
 
-    good = {path.name: path.read_text() for path in sorted((source / "scenarios").glob("*.yaml"))}
+    good = {path.name: path.read_text() for path in sorted((source / "scenarios").rglob("*.yaml"))}
     table = yaml.safe_load((source / "tests/harness/scenario/bad_scenarios.yaml").read_text())
     good |= {base: table[base] for base in ("planar", "spatial")}
     for name, text in good.items():

@@ -14,6 +14,7 @@
 
 #include "bqsa/kinematics/serial_chain.hpp"
 #include "harness/scenario/scenario_files.hpp"
+#include "harness/sha256.hpp"
 
 namespace bqsa::harness {
 namespace {
@@ -147,6 +148,27 @@ TEST(Scenario, WhatIsLeftOutHasItsDocumentedDefault) {
   EXPECT_LT((problem.desired_tip(0.5) - Vector3d(1 + 0.5 * std::cos(0.5), 0.25 * std::sin(0.5), 0))
                 .norm(),
             1e-15);
+}
+
+TEST(Scenario, SelfCollisionIsJudgedIfAskedFor) {
+  const TestDirectory directory;
+  const auto asked = [&](const std::string& lines) {
+    return directory
+        .load(
+            "schema: bqsa-scenario/1\nname: folding\nunits: {length: m, angle: deg}\n"
+            "robot: {kind: planar, links: [1, 1, 1, 1], link_radius: 0.01}\n"
+            "start: [0, 60, 60, 60]\n"
+            "task:\n  path: {kind: line, start_point: [0, 1.732050808], end_point: [0, 1.5]}\n"
+            "  timing: {duration: 1, ticks: 10}\n" +
+            lines)
+        .self_collision;
+  };
+  EXPECT_FALSE(asked("").has_value());
+  EXPECT_FALSE(asked("self_collision: false\n").has_value());
+  ASSERT_TRUE(asked("self_collision: true\n").has_value());
+  EXPECT_TRUE(asked("self_collision: true\n")->skip.empty());
+  using Pairs = std::vector<std::pair<int, int>>;
+  EXPECT_EQ(asked("self_collision: {skip: [[4, 2], [1, 3]]}\n")->skip, Pairs({{2, 4}, {1, 3}}));
 }
 
 TEST(Scenario, MillimetresAndDegreesGiveTheProblemOfMetresAndRadians) {
@@ -440,6 +462,56 @@ TEST(Scenario, APathIsRefusedExactlyIfTheTipMeetsTheMovingObstacle) {
   EXPECT_GT(clear, 25);
 }
 
+// Against points all round the obstacle, of which many are long and thin and lie along or across the path.
+TEST(Scenario, APathIsRefusedExactlyIfTheTipMeetsTheRestingObstacle) {
+  const TestDirectory directory;
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  int met = 0, clear = 0;
+  for (int k = 0; k < 400; ++k) {
+    const double radius = k % 2 == 0 ? 0 : 0.03;
+    const double a = 0.01 + 0.6 * uniform(random);
+    const double b = a * std::pow(10, -3 * uniform(random));
+    const double turn = 180 * uniform(random);
+    const double x = 0.2 + 1.6 * uniform(random);
+    const double c = std::cos(turn * kDegree), s = std::sin(turn * kDegree);
+    const double y = -(std::hypot(a * s, b * c) + radius) * (0.9 + 0.2 * uniform(random));
+    double nearest = 1e9;
+    bool crosses = false;
+    constexpr int kAround = 20'000;
+    for (int i = 0; i < kAround; ++i) {
+      const double angle = 2 * std::numbers::pi * i / kAround;
+      const double u = a * std::cos(angle), v = b * std::sin(angle);
+      const double px = x + c * u - s * v, py = y + s * u + c * v;
+      nearest = std::min(nearest, std::hypot(px - std::clamp(px, 0.0, 2.0), py));
+      crosses = crosses || (py > 0 && px > 0 && px < 2);
+    }
+    const double gap = crosses ? -1 : nearest - radius;
+    if (std::abs(gap) < 1e-3) continue;
+    const std::string message = message_of(directory, [&] {
+      directory.load(
+          "schema: bqsa-scenario/1\nname: s\nunits: {length: m, angle: deg}\n"
+          "robot: {kind: planar, links: [2, 2], link_radius: " +
+          std::to_string(radius) +
+          "}\nstart: [60, -120]\n"
+          "task: {path: {kind: line, start_point: [2, 0], end_point: [0, 0]},"
+          " timing: {duration: 2, ticks: 1}}\n"
+          "obstacles: [{name: one, kind: ellipse, center: [" +
+          std::to_string(x) + ", " + std::to_string(y) + "], semi_axes: [" + std::to_string(a) +
+          ", " + std::to_string(b) + "], rotation: " + std::to_string(turn) + "}]\n");
+    });
+    if (message.find("a start free of collision") != std::string::npos) continue;
+    ++(gap < 0 ? met : clear);
+    const bool refused =
+        message.find("expected a path free of obstacles, got one that enters obstacle one") !=
+        std::string::npos;
+    ASSERT_EQ(refused, gap < 0) << "case " << k << ": " << message;
+    ASSERT_TRUE(refused || message == "no error") << "case " << k << ": " << message;
+  }
+  EXPECT_GT(met, 100);
+  EXPECT_GT(clear, 100);
+}
+
 TEST(Scenario, ASlowThinSheetIsMetByAFastTipBetweenTicks) {
   const TestDirectory directory;
   for (const char* x : {"530", "655", "700", "810", "960"}) {
@@ -472,6 +544,240 @@ TEST(Scenario, APathThatKeepsTooNearToAMovingObstacleIsRefusedInsteadOfStalling)
       "obstacles, got one that keeps too near to obstacle a for that, until t = "))
       << message;
   EXPECT_EQ(load("1100.02"), "no error");
+}
+
+// Two joints about -y and a hand that is turned, in URDF.
+constexpr const char* kElbow =
+    "<robot name='elbow'><link name='world'/><link name='upper'/><link name='lower'/>"
+    "<link name='hand'/>"
+    "<joint name='shoulder' type='revolute'><parent link='world'/><child link='upper'/>"
+    "<origin xyz='0 0 0.5'/><axis xyz='0 -1 0'/>"
+    "<limit lower='-2' upper='2' effort='1' velocity='1'/></joint>"
+    "<joint name='elbow' type='revolute'><parent link='upper'/><child link='lower'/>"
+    "<origin xyz='0.4 0 0'/><axis xyz='0 -1 0'/>"
+    "<limit lower='-3' upper='3' effort='1' velocity='2'/></joint>"
+    "<joint name='wrist' type='fixed'><parent link='lower'/><child link='hand'/>"
+    "<origin xyz='0.3 0 0' rpy='0 0 1.5707963267948966'/></joint></robot>\n";
+
+std::string urdf_scenario(const std::string& robot, const std::string& tip) {
+  return "schema: bqsa-scenario/1\nname: s\nunits: {length: mm, angle: deg}\n"
+         "robot: " +
+         robot +
+         "\nstart: [30, -60]\nstart_tolerance: 1\n"
+         "task: {path: {kind: line, start_point: " +
+         tip +
+         ", end_point: [500, 0, 600]},"
+         " timing: {duration: 2, ticks: 10}}\n";
+}
+
+TEST(Scenario, AnArmInUrdfStandsWhereItsFileSays) {
+  const TestDirectory directory;
+  directory.write("elbow.urdf", kElbow);
+  const std::string text = urdf_scenario(
+      "{kind: urdf, file: elbow.urdf, base_link: world, tip_link: hand, base: [0, 0, 100],"
+      " tool: [0, -50, 0], link_radius: 20}",
+      "[649.519, 0, 625]");
+  const Scenario urdf = directory.load(text);
+  EXPECT_EQ(urdf.sha256, sha256_of(text + kElbow));
+  EXPECT_EQ(urdf.problem.chain.joints(), 2);
+  EXPECT_EQ(urdf.problem.link_radius, 0.02);
+  EXPECT_EQ(urdf.problem.limits.lower, (JointVector(2) << -2, -3).finished());
+  EXPECT_EQ(urdf.problem.limits.max_velocity, (JointVector(2) << 1, 2).finished());
+  EXPECT_LT((start_tip(urdf.problem) -
+             Vector3d(0.35 * std::cos(30 * kDegree) + 0.4 * std::cos(30 * kDegree), 0,
+                      0.6 + 0.4 * 0.5 - 0.35 * 0.5))
+                .norm(),
+            1e-15);
+}
+
+/// Values, limits and steps of a joint that slides are lengths, whatever the unit of angles.
+TEST(Scenario, AJointThatSlidesIsGivenInLengths) {
+  const TestDirectory directory;
+  directory.write("slide.urdf", with(kElbow, "<joint name='elbow' type='revolute'>",
+                                     "<joint name='elbow' type='prismatic'>"));
+  const auto load = [&](const std::string& start, const std::string& tip) {
+    return directory.load(
+        with(urdf_scenario("{kind: urdf, file: slide.urdf, base_link: world, tip_link: hand}", tip),
+             "start: [30, -60]", "start: " + start));
+  };
+  const Scenario scenario = load("[90, -100]", "[0, 100, 1200]");
+  const Problem& problem = scenario.problem;
+  EXPECT_TRUE(problem.chain.is_prismatic(1));
+  EXPECT_DOUBLE_EQ(problem.start(0), 90 * kDegree);
+  EXPECT_DOUBLE_EQ(problem.start(1), -0.1);
+  EXPECT_EQ(problem.limits.upper, (JointVector(2) << 2, 3).finished());
+  EXPECT_LT((start_tip(problem) - Vector3d(0, 0.1, 1.2)).norm(), 1e-15);
+  const auto refusal = [&](const std::string& start, const std::string& tip) {
+    return message_of(directory, [&] { load(start, tip); });
+  };
+  EXPECT_EQ(refusal("[90, 3001]", "[0, 0, 0]"),
+            "s.yaml:5: start[1]: expected a length not above the limit 3000 mm, got 3001");
+  EXPECT_EQ(refusal("[120, 0]", "[0, 0, 0]"),
+            "s.yaml:5: start[0]: expected an angle not above the limit 114.592 deg, got 120");
+  EXPECT_EQ(
+      refusal("[90]", "[0, 0, 0]"),
+      "s.yaml:5: start: expected a list of 2 angles and lengths, one a joint, got a list of 1");
+  EXPECT_EQ(refusal("[90, 0]", "[0, 0, 4301]"),
+            "s.yaml:7: task.path: expected a path within reach, 0 mm to 3700 mm from (0, 0, 500) "
+            "mm, got (0, 0, 4301) mm, which is 3801 mm away");
+}
+
+TEST(Scenario, LinksMayHaveRadiiOfTheirOwn) {
+  const TestDirectory directory;
+  const auto load = [&](const std::string& radius) {
+    return directory
+        .load(
+            "schema: bqsa-scenario/1\nname: s\nunits: {length: mm, angle: deg}\n"
+            "robot: {kind: dh, joints: [{a: 0, alpha: 90, d: 0}, {a: 400, alpha: 0, d: 0}],"
+            " tool: [0, 0, 50], link_radius: " +
+            radius +
+            "}\nstart: [0, 0]\ntask: {path: {kind: line, start_point: [400, -50, 0],"
+            " end_point: [380, -50, 0]}, timing: {duration: 1, ticks: 1}}\n")
+        .problem;
+  };
+  const Problem problem = load("[30, 20]");  // the first row has no length
+  EXPECT_EQ(problem.link_radii, (std::vector<double>{0.03, 0.02}));
+  EXPECT_EQ(problem.link_radius, 0.03);
+  EXPECT_EQ(problem.radius_of(1), 0.02);
+  EXPECT_EQ(load("30").radius_of(1), 0.03);
+  const auto refusal = [&](const std::string& radius) {
+    return message_of(directory, [&] { load(radius); });
+  };
+  EXPECT_EQ(
+      refusal("[30, 20, 10]"),
+      "s.yaml:4: robot.link_radius: expected a length, or a list of 2, one a link, got a list "
+      "of 3");
+  EXPECT_EQ(refusal("[30, -20]"),
+            "s.yaml:4: robot.link_radius[1]: expected a length of 0 or more, got -20");
+  EXPECT_EQ(refusal("capsules"),
+            "s.yaml:4: robot.link_radius: expected capsules for a robot of kind urdf alone, got "
+            "capsules");
+  EXPECT_EQ(refusal("{}"), "s.yaml:4: robot.link_radius: expected a number, got a mapping");
+}
+
+/// The start is asked with the radius of each link, the path with that of the last.
+TEST(Scenario, EachLinkNeedsTheRoomOfItsOwnRadius) {
+  const TestDirectory directory;
+  const auto load = [&](const std::string& radius) {
+    return message_of(directory, [&] {
+      directory.load(
+          "schema: bqsa-scenario/1\nname: s\nunits: {length: m, angle: deg}\n"
+          "robot: {kind: planar, links: [1, 1], link_radius: " +
+          radius +
+          "}\nstart: [0, 90]\ntask: {path: {kind: line, start_point: [1, 1], end_point: [0.5, 1]},"
+          " timing: {duration: 1, ticks: 1}}\nobstacles:\n"
+          "  - {name: below, kind: ellipse, center: [0.5, -0.2], semi_axes: [0.1, 0.1]}\n"
+          "  - {name: above, kind: ellipse, center: [0.6, 1.2], semi_axes: [0.15, 0.15]}\n");
+    });
+  };
+  EXPECT_EQ(load("[0.09, 0.04]"), "no error");
+  EXPECT_EQ(load("[0.11, 0.04]"),
+            "s.yaml:5: start: expected a start free of collision, got link 1, 0.01 m deep in "
+            "obstacle below");
+  EXPECT_TRUE(load("[0.04, 0.11]")
+                  .starts_with("s.yaml:6: task.path: expected a path free of obstacles, got one "
+                               "that enters obstacle above"));
+}
+
+TEST(Scenario, RadiiOfAnArmInUrdfMayComeFromItsFile) {
+  const TestDirectory directory;
+  const std::string ball =
+      "<collision><origin xyz='0.2 0 0.1'/><geometry><sphere "
+      "radius='0.05'/></geometry></collision>";
+  const std::string mesh =
+      "<collision><geometry><mesh filename='package://elbow/parts/hand.obj' scale='2 2 2'/>"
+      "</geometry></collision>";
+  const std::string urdf =
+      with(with(kElbow, "<link name='upper'/>", "<link name='upper'>" + ball + "</link>"),
+           "<link name='hand'/>", "<link name='hand'>" + mesh + "</link>");
+  directory.write("elbow.urdf", urdf);
+  std::filesystem::create_directory(directory.path() / "parts");
+  const std::string points = "v 0 0 0.01\nv 0.01 0 0\nv 0 0.03 0\nf 1 2 3\n";
+  directory.write("parts/hand.obj", points);
+  const std::string text = urdf_scenario(
+      "{kind: urdf, file: elbow.urdf, base_link: world, tip_link: hand, link_radius: capsules}",
+      "[606.218, 0, 550]");
+  const Scenario scenario = directory.load(text);
+  ASSERT_EQ(scenario.problem.link_radii.size(), 3u);
+  EXPECT_EQ(scenario.problem.link_radii[0], 0);
+  EXPECT_DOUBLE_EQ(scenario.problem.link_radii[1], 0.15);
+  EXPECT_NEAR(scenario.problem.link_radii[2], 0.02, 1e-8);  // (0.01, 0, 0) is across, twice
+  EXPECT_EQ(scenario.problem.link_radius, scenario.problem.link_radii[1]);
+  EXPECT_EQ(scenario.sha256, sha256_of(text + urdf + points));
+  const auto refusal = [&] { return message_of(directory, [&] { directory.load(text); }); };
+  std::filesystem::remove(directory.path() / "parts/hand.obj");
+  EXPECT_TRUE(refusal().starts_with("elbow.urdf: ")) << refusal();
+  EXPECT_TRUE(refusal().ends_with("parts/hand.obj: expected a file, got nothing there"))
+      << refusal();
+  directory.write("elbow.urdf", with(urdf, "package://elbow/parts", "file:///parts"));
+  EXPECT_EQ(refusal(),
+            "elbow.urdf: expected a mesh by package:// or a relative name, got "
+            "'file:///parts/hand.obj'");
+  directory.write("elbow.urdf", with(urdf, "package://elbow/parts", ".."));
+  EXPECT_TRUE(
+      refusal().ends_with("s.yaml:4: robot.file: expected a file in the scenario's directory "
+                          "(unless --allow-outside is "
+                          "given), got ../hand.obj"))
+      << refusal();
+}
+
+TEST(Scenario, NamesTheRobotOfAnyKind) {
+  const TestDirectory directory;
+  EXPECT_EQ(directory.load(kPlanar).robot_name, "");
+  const std::string named = with(kPlanar, "kind: planar", "kind: planar\n  name: Planar arm 3");
+  EXPECT_EQ(directory.load(named).robot_name, "Planar arm 3");
+  const std::string longest(100, 'x');
+  for (const std::string kind : {"dh", "mdh"}) {
+    EXPECT_EQ(directory
+                  .load("schema: bqsa-scenario/1\nname: s\nunits: {length: mm, angle: deg}\n"
+                        "robot: {kind: " +
+                        kind + ", name: \"" + longest +
+                        "\", joints: [{a: 0, alpha: 0, d: 0}], tool: [1000, 0, 0]}\n"
+                        "start: [0]\ntask:\n"
+                        "  path: {kind: circle, center: [0, 0, 0], radius: 1000, axis_u: [1, 0, 0],"
+                        " axis_v: [0, 1, 0], from: 0, to: 9}\n"
+                        "  timing: {duration: 1, ticks: 4}\n")
+                  .robot_name,
+              longest)
+        << kind;
+  }
+}
+
+TEST(Scenario, ARobotInUrdfHasTheNameOfItsFileUnlessItIsGivenAnother) {
+  const TestDirectory directory;
+  const auto name = [&directory](const std::string& in_file, const std::string& more) {
+    directory.write("elbow.urdf",
+                    with(kElbow, "robot name='elbow'", "robot name='" + in_file + "'"));
+    const std::string robot =
+        "{kind: urdf, file: elbow.urdf, base_link: world, tip_link: hand" + more + "}";
+    return directory.load(urdf_scenario(robot, "[606.218, 0, 550]")).robot_name;
+  };
+  EXPECT_EQ(name("Elbow, left", ""), "Elbow, left");
+  EXPECT_EQ(name("elbow", ", name: Arm 7"), "Arm 7");
+  EXPECT_EQ(name(std::string(100, 'y'), ""), std::string(100, 'y'));
+  EXPECT_EQ(name(std::string(101, 'y'), ""), "");  // what no scenario could call it
+  EXPECT_EQ(name("  ", ""), "");
+}
+
+TEST(Scenario, WhatIsWrongWithAUrdfFileIsSaidWithItsName) {
+  const TestDirectory directory;
+  directory.write("elbow.urdf", kElbow);
+  const auto refusal = [&](const std::string& robot) {
+    return message_of(directory, [&] { directory.load(urdf_scenario(robot, "[0, 0, 0]")); });
+  };
+  EXPECT_EQ(refusal("{kind: urdf, file: elbow.urdf, base_link: world, tip_link: foot}"),
+            "elbow.urdf: expected one of the robot's links, got 'foot'; there are 'hand', 'lower', "
+            "'upper', 'world'");
+  EXPECT_TRUE(refusal("{kind: urdf, file: none.urdf, base_link: world, tip_link: hand}")
+                  .starts_with("none.urdf: "));
+  EXPECT_EQ(refusal("{kind: urdf, file: ../elbow.urdf, base_link: world, tip_link: hand}"),
+            "s.yaml:4: robot.file: expected a file in the scenario's directory (unless "
+            "--allow-outside is given), got ../elbow.urdf");
+  EXPECT_EQ(refusal("{kind: urdf, file: elbow.urdf, base_link: world}"),
+            "s.yaml:4: robot.tip_link: expected the name of a link, got nothing");
+  EXPECT_EQ(refusal("{kind: urdf, file: elbow.urdf, base_link: world, tip_link: hand, limits: "
+                    "{lower: [0, 0]}}"),
+            "s.yaml:4: robot.limits: expected a known key, the nearest being kind, got limits");
 }
 
 TEST(Scenario, Sha256CountsTheFilesThatAScenarioNames) {

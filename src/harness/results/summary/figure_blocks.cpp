@@ -15,6 +15,7 @@ namespace {
 constexpr double kMillimetre = 1e-3;
 constexpr double kMicrosecond = 1e-6;
 constexpr double kMillisecond = 1e-3;
+constexpr double kPercent = 1e-2;
 constexpr double kDegree = std::numbers::pi / 180;
 
 }  // namespace
@@ -45,6 +46,31 @@ std::string accuracy_table(const Tallies& tallies) {
             tally.increments.total() > 0 ? std::to_string(tally.increments_max) : "-"};
   });
   return table.text();
+}
+
+std::string motion_table(const Tallies& tallies) {
+  TextTable table({{"motion", "", true},
+                   {"drift", "[deg]"},
+                   {"manipulability", "least"},
+                   {"", "mean"},
+                   {"singular value", "[m]"},
+                   {"self-motion", "[%]"},
+                   {"jerk", "[rad/s3]"}});
+  bool any = false;
+  tallies.fill(table, [&any](const Tally& tally) -> std::vector<std::string> {
+    const auto median = [&tally](double MotionQuality::*value) {
+      return median_over(tally.motions, value);
+    };
+    const double jerk = median(&MotionQuality::jerk_rms);
+    any = any || std::isfinite(jerk);
+    return {figure(median(&MotionQuality::closed_path_drift) / kDegree),
+            figure(median(&MotionQuality::manipulability_min)),
+            figure(median(&MotionQuality::manipulability_mean)),
+            figure(median(&MotionQuality::singular_value_min)),
+            figure(median(&MotionQuality::null_space_share) / kPercent),
+            figure(jerk)};
+  });
+  return any ? table.text() + '\n' : "";
 }
 
 std::string time_table(const Tallies& tallies) {

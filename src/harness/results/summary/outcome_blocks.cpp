@@ -38,8 +38,10 @@ std::vector<FailureColumn> failure_columns() {
           {verdict_of(name_of(Failure::kInputsChanged)), "changes", "inputs"},
           {verdict_of(name_of(Failure::kWorkHidden)), "hides", "work"},
           {verdict_of(name_of(Failure::kCollision)), "collides", ""},
+          {verdict_of(name_of(Failure::kSelfCollision)), "self-", "coll."},
           {verdict_of(name_of(Failure::kUndecided)), "unde-", "cided"},
           {verdict_of(name_of(Failure::kDrift)), "drifts", ""},
+          {verdict_of(name_of(Failure::kOrientation)), "tilts", ""},
           {verdict_of(name_of(Failure::kJump)), "jumps", ""},
           {verdict_of(name_of(Failure::kJointLimit)), "breaks", "limits"},
           {verdict_of(name_of(Failure::kDisagreement)), "no", "verdict"}};

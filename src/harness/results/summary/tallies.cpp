@@ -5,6 +5,7 @@
 
 #include "harness/judge/judge.hpp"
 #include "harness/results/summary.hpp"
+#include "harness/statistics/estimates.hpp"
 
 namespace bqsa::harness {
 namespace {
@@ -48,6 +49,7 @@ void Tally::add_success(const TableRow& row) {
   if (std::isfinite(row.plan_s)) plans_s.push_back(row.plan_s);
   if (std::isfinite(row.clearance_m)) clearance_m = std::min(clearance_m, row.clearance_m);
   max_joint_step_rad = std::max(max_joint_step_rad, row.max_joint_step_rad);
+  motions.push_back(row.motion);
   increments.add_all(row.increments);
   increments_max = std::max(increments_max, row.increments_max);
   step_times.add_all(row.step_times);
@@ -62,6 +64,16 @@ void Tally::add_slowest(const TableRow& row) {
   slowest_tick = row.slowest_tick;
   slowest_repetition = row.repetition;
   slowest_counts = row.against_times.empty();
+}
+
+double median_over(const std::vector<MotionQuality>& motions, double MotionQuality::*figure) {
+  std::vector<double> values;
+  for (const MotionQuality& motion : motions) {
+    if (std::isfinite(motion.*figure)) values.push_back(motion.*figure);
+  }
+  if (values.empty()) return TableRow::kNone;
+  std::sort(values.begin(), values.end());
+  return median_of(values);
 }
 
 Tallies::Tallies(const std::vector<TableRow>& rows) {

@@ -34,6 +34,7 @@ struct Tally {
   double tip_error_between_ticks_m = 0;
   double clearance_m = std::numeric_limits<double>::infinity();
   double max_joint_step_rad = 0;
+  std::vector<MotionQuality> motions;  ///< of each success
   LogHistogram increments;
   int increments_max = 0;
 
@@ -55,6 +56,9 @@ struct Tally {
   void add_success(const TableRow& row);
   void add_slowest(const TableRow& row);
 };
+
+/// Median of one figure over the motions that have it, not a number if none has.
+double median_over(const std::vector<MotionQuality>& motions, double MotionQuality::*figure);
 
 /// Strings in order of first appearance.
 class Order {

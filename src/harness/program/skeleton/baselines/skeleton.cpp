@@ -46,11 +46,12 @@ class Skeleton final : public ReactiveMethod {
     JointVector phi = JointVector::Zero(chain.joints());
     for (std::size_t j = 0; j < problem_->obstacles.size(); ++j) {
       const Ellipsoid& shape = problem_->obstacles[j].at(tick - 1);  // as the step begins
-      for (const Link& link : chain.links()) {
+      for (std::size_t i = 0; i < chain.links().size(); ++i) {
+        const Link& link = chain.links()[i];
         const NearestPlane<3> plane =
             nearest_plane<3>(shape, pose_.p_WO.col(link.start), pose_.p_WO.col(link.end));
         ++counters_.distance_queries;
-        const double clearance = plane.distance - problem_->link_radius - problem_->margin;
+        const double clearance = plane.distance - problem_->radius_of(i) - problem_->margin;
         if (clearance >= influence_) continue;
         chain.jacobian(pose_, link.start, J_start_);
         chain.jacobian(pose_, link.end, J_end_);
