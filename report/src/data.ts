@@ -117,6 +117,7 @@ export class ReportData {
   readonly runs_of_scenario: Run[][];
   readonly runs_of_method: Run[][];
   readonly families: string[];
+  readonly robots: string[]; ///< names to choose from; none where there are fewer than two
   readonly #scenario_keys: UniqueNames;
   readonly #method_keys: UniqueNames;
   #replays = new Map<number, DecodedReplay>();
@@ -139,6 +140,8 @@ export class ReportData {
       (index, nth) => `${this.method(index).variant}~${nth}`,
     );
     this.families = [...new Set(report.scenarios.map((scenario) => scenario.family || scenario.name))];
+    const robots = [...new Set(report.scenarios.map((scenario) => scenario.robot))].filter((name) => name !== "");
+    this.robots = robots.length > 1 ? robots : [];
   }
 
   scenario(index: number): Scenario {
@@ -179,8 +182,15 @@ export class ReportData {
     return scenario.family || scenario.name;
   }
 
-  summary(family: string | null): MethodSummary[] {
-    return this.report.summary.filter((entry) => entry.family === family);
+  /** Whether a scenario is of the family and of the robot that are chosen; empty: any. */
+  of_scope(index: number, { family, robot }: { family: string; robot: string }): boolean {
+    const scenario = this.scenario(index);
+    return (family === "" || this.family(scenario) === family) && (robot === "" || scenario.robot === robot);
+  }
+
+  /** What methods add up to over a family, a robot or both; null: over all. */
+  summary(family: string | null, robot: string | null): MethodSummary[] {
+    return this.report.summary.filter((entry) => entry.family === family && entry.robot === robot);
   }
 
   /** Replay of a run, decoded on first use; null if there is none. */

@@ -13,11 +13,13 @@ export interface State {
   repetition: number | null; ///< of the run, in a campaign
   tick: number | null;
   family: string; ///< filter: family of scenarios
+  robot: string; ///< filter: robot of scenarios
   verdict: string; ///< filter: verdict of runs or claims
   only: string; ///< filter: variant
   find: string; ///< filter: words
   sort: string; ///< column of each sorted table, `runs.-time|methods.rate`; "-": descending
   cell: string; ///< figure in the cells of the matrix
+  rows: string; ///< what the rows of the matrix gather, `robot`; else families
   least: string; ///< success rate that trade-offs ask for [%]
   sweep: string; ///< sweep of the scaling view
   show: string; ///< series shown, separated by "|"
@@ -35,11 +37,13 @@ const kInitial: State = {
   repetition: null,
   tick: null,
   family: "",
+  robot: "",
   verdict: "",
   only: "",
   find: "",
   sort: "",
   cell: "",
+  rows: "",
   least: "",
   sweep: "",
   show: "",

@@ -1,6 +1,6 @@
 // Pieces that several views show: verdicts, names of methods and scenarios, figures of runs, addresses of replays.
 import { verdict_of, type MethodSummary, type ReportData, type Run, type Verdict } from "./data";
-import { h, short, svg, type Child } from "./dom";
+import { h, select, short, svg, type Child } from "./dom";
 import { degrees, interval, kNone, length, microseconds, time } from "./format";
 import { jumps, type Jump } from "./jumps";
 import type { Change, Link } from "./link";
@@ -160,6 +160,20 @@ export function rate_interval(entry: MethodSummary): string {
 /** A heading with what belongs beside it. */
 export function heading(text: string, ...beside: Child[]): HTMLElement {
   return h("div", { class: "heading" }, h("h2", {}, text), ...beside);
+}
+
+/** A choice among the families or the robots of the report; nothing where there is one. */
+export function scope_choice(data: ReportData, link: Link, key: "family" | "robot", all: string, label: string): Child {
+  const names = key === "family" ? data.families : data.robots;
+  return (
+    names.length > 1 &&
+    select(
+      label,
+      [{ value: "", text: all }, ...names.map((name) => ({ value: name, text: name }))],
+      link.state[key],
+      (value) => link.change({ [key]: value, open: "" }),
+    )
+  );
 }
 
 /** What stands in the place of a view that has no data. */

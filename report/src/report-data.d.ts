@@ -46,7 +46,7 @@ export interface Report {
    */
   origins: Origin[];
   /**
-   * All scenarios first, then each family; variants in the order of `methods`.
+   * All scenarios first, then each family; then, where two or more robots have names, the same of each robot. Variants in the order of `methods`.
    */
   summary: MethodSummary[];
   /**
@@ -123,6 +123,10 @@ export interface Scenario {
    * Family of generated scenarios; empty for others.
    */
   family: string;
+  /**
+   * Name of the robot; empty if it has none.
+   */
+  robot: string;
   /**
    * What the file says of it; empty if it says nothing or was not found.
    */
@@ -783,13 +787,17 @@ export interface Origin {
   values: [string, string][];
 }
 /**
- * What the runs of a variant add up to over one family, or over all scenarios. Statistics as the program's own summary has them.
+ * What the runs of a variant add up to over all scenarios, or over one family, one robot or both. Statistics as the program's own summary has them.
  */
 export interface MethodSummary {
   /**
    * Family; a scenario that is not generated is one of its own; null: all scenarios.
    */
   family: string | null;
+  /**
+   * Robot; null: all of them, and those without a name.
+   */
+  robot: string | null;
   /**
    * Index into `methods`.
    */

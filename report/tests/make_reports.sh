@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # Makes the pages that the tests look at, by the program: `paper`, the paper's scenarios with measurements and
 # claims; `odd`, with a crash, a wrong claim, pairs that do not fit and repetitions; `big`, 20 scenarios by 10 methods
-# of 400 ticks or so; `solids`, a shelf of boards; `slide`, an arm whose prismatic joint jumps.
+# of 400 ticks or so; `robots`, five arms among solids; `solids`, a shelf of boards; `slide`, an arm whose prismatic joint jumps.
 #   report/tests/make_reports.sh PROGRAM DIRECTORY
 set -euo pipefail
 program=$(realpath "$1")
 mkdir -p "$2"
 out=$(realpath "$2")
 cd "$(dirname "$0")/../.."
-rm -rf "$out"/{paper,odd,big,solids,slide,scenarios}
+rm -rf "$out"/{paper,odd,big,robots,solids,slide,scenarios}
 
 run() {  # DIRECTORY ARGUMENT...
   local directory=$1
@@ -31,6 +31,11 @@ run odd scenarios/planar_7r.yaml -m ompl --seeds 3
 run big "$out"/scenarios/* -m none -m bqsa -m bqsa:release=never -m bqsa_lookahead -m bqsa_escape -m test_point \
   -m potential_field -m qp -m compact_qp -m maciejewski_klein
 "$program" report "$out/big"
+
+"$program" generate --family clutter --robots robots --count 10 --seed 1 --out "$out/scenarios/clutter"
+"$program" generate --family corridor --robots robots --count 10 --seed 1 --out "$out/scenarios/corridor"
+run robots "$out"/scenarios/{clutter,corridor} -m none -m bqsa
+"$program" report "$out/robots"
 
 run solids scenarios/solids/ur5e_shelf.yaml scenarios/puma560_ellipsoid.yaml -m none -m bqsa
 "$program" report "$out/solids"

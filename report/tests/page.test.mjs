@@ -15,7 +15,8 @@ const odd_file = page_file("odd");
 const odd = data_of(odd_file);
 const big_file = page_file("big");
 const big = data_of(big_file);
-
+const robots_file = page_file("robots");
+const robots = data_of(robots_file);
 const solids_file = page_file("solids");
 const solids = data_of(solids_file);
 
@@ -302,6 +303,54 @@ test("runs are filtered by verdict, method and words", async () => {
   await page.getByRole("button", { name: "Clear filters" }).click();
   assert.equal(await number(), `${paper.runs.length} runs`);
   assert.equal(await page.getByLabel("Find runs").inputValue(), "");
+  await close();
+});
+
+test("what is shown is narrowed to a robot, and robots stand beside each other", async () => {
+  const names = [...new Set(robots.scenarios.map((scenario) => scenario.robot))];
+  assert.equal(names.length, 5);
+  const of = (family, robot) =>
+    robots.runs.filter(({ scenario: index }) => {
+      const scenario = robots.scenarios[index];
+      return (family === "" || scenario.family === family) && (robot === "" || scenario.robot === robot);
+    });
+  const share = (runs, method) => {
+    const judged = runs.filter((run) => run.method === method && run.applicable);
+    return judged.length === 0 ? "n/a" : `${judged.filter((run) => run.success).length} of ${judged.length}`;
+  };
+  const { page, problems, close } = await browser.open(robots_file, "#rows=robot");
+  const row = (name) => page.locator("#matrix tbody tr", { has: page.locator(`th a:text-is("${name}")`) });
+  const check = async (family) => {
+    assert.equal(await page.locator("#matrix tbody tr").count(), names.length);
+    for (const name of names) {
+      const cells = await texts(row(name).locator("td"));
+      cells.forEach((text, method) => assert.ok(text.endsWith(share(of(family, name), method)), `${name}: ${text}`));
+    }
+  };
+  await check("");
+  await page.locator("#methods").getByLabel("over").selectOption("corridor");
+  await check("corridor");
+  await row(names[1]).locator("th a").click();
+  const shown = of("corridor", names[1]);
+  const number = () => page.locator("#runs [role=status]").textContent();
+  assert.equal(await number(), `${shown.length} of ${robots.runs.length} runs`);
+  for (const [index, method] of robots.methods.entries()) {
+    const line = page.locator("#methods tbody tr", { has: page.locator(`strong:text-is("${method.variant}")`) });
+    assert.ok((await line.innerText()).includes(share(shown, index)), method.variant);
+  }
+  await page.waitForFunction(() => location.hash.includes("robot="));
+  await page.reload();
+  assert.equal(await number(), `${shown.length} of ${robots.runs.length} runs`);
+  assert.equal(await page.locator("#runs").getByLabel("robot").inputValue(), names[1]);
+  await page.getByRole("link", { name: "all families" }).click();
+  assert.equal(await number(), `${of("", names[1]).length} of ${robots.runs.length} runs`);
+  assert.equal(await page.locator("#matrix tbody tr").count(), 2, "the families of this robot");
+  await page.getByRole("link", { name: "all robots" }).click();
+  await check("");
+  await page.getByLabel("Find runs").fill(`"${names[2]}"`);
+  await page.waitForFunction(() => location.hash.includes("find="));
+  assert.equal(await number(), `${of("", names[2]).length} of ${robots.runs.length} runs`);
+  assert.deepEqual(await problems(), []);
   await close();
 });
 
@@ -759,6 +808,7 @@ test("hostile names neither break nor script the page, in any view", async () =>
       description: name(),
       file: name(),
       family: hostile[i + 3],
+      robot: hostile[i + 4],
       obstacles: scenario.obstacles.map(name),
     }),
   );

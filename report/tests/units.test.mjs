@@ -7,7 +7,7 @@ const { parse, fragment, kViews } = await module_of("link");
 const format = await module_of("format");
 const { f32, u16, verdict_of, ReportData } = await module_of("data");
 const { reason, run_change, telling_tick } = await module_of("parts");
-const { points_of_scenario, points_of_family, quantity, value_text } = await module_of("views/pareto");
+const { points_of_scenario, points_of_scope, quantity, value_text } = await module_of("views/pareto");
 const { select_runs } = await module_of("replay/selection");
 
 test("a state comes back from its address, whatever the names", () => {
@@ -120,7 +120,7 @@ test("a verdict tells crash, no verdict, failure, success and pairs that do not 
 /** A report of scenarios [name, hash], variants and runs. */
 const report_of = (scenarios, variants, runs) =>
   new ReportData({
-    scenarios: scenarios.map(([name, sha256]) => ({ name, sha256, family: "" })),
+    scenarios: scenarios.map(([name, sha256]) => ({ name, sha256, family: "", robot: "" })),
     methods: variants.map((variant) => ({ name: variant, variant, external: variant === "external" })),
     runs: runs.map((run) => ({ applicable: true, success: true, seed: null, repetition: null, replay: 0, ...run })),
     replays: [],
@@ -167,6 +167,7 @@ test("times of trade-offs have the mark of what speaks against them, other quant
   const entry = {
     ...times,
     family: null,
+    robot: null,
     rate: 1,
     plan_median_s: null,
     tip_error_median_m: 1e-6,
@@ -174,7 +175,7 @@ test("times of trade-offs have the mark of what speaks against them, other quant
     times_publishable: true,
   };
   data.report.summary.push({ ...entry, method: 0 }, { ...entry, method: 1, times_publishable: false });
-  assert.deepEqual(points_of_family(data, null).map(texts), [marked(""), marked("~⇄")]);
+  assert.deepEqual(points_of_scope(data, null, null).map(texts), [marked(""), marked("~⇄")]);
 });
 
 test("why a run failed is told with tick and figure, of what its verdict names", () => {

@@ -99,9 +99,9 @@ export function points_of_scenario(data: ReportData, scenario: number): Point[] 
   });
 }
 
-/** Variants over a family, or over all scenarios: as the program sums them up. */
-export function points_of_family(data: ReportData, family: string | null): Point[] {
-  return data.summary(family).flatMap((entry) =>
+/** Variants over a family, a robot or both, or over all scenarios (null): as the program sums them up. */
+export function points_of_scope(data: ReportData, family: string | null, robot: string | null): Point[] {
+  return data.summary(family, robot).flatMap((entry) =>
     entry.rate === null
       ? []
       : [

@@ -1,6 +1,6 @@
-// Verdict for each pair of method and scenario; many scenarios are gathered by family.
+// Verdict for each pair of method and scenario; many scenarios are gathered by family or by robot.
 import type { MethodSummary, ReportData, Run } from "../data";
-import { choice, cut, h, redraw, replace, short, type Child } from "../dom";
+import { choice, cut, h, redraw, replace, select, short, type Child } from "../dom";
 import { count, counted, kNone, percent, time } from "../format";
 import type { Link, State } from "../link";
 import {
@@ -44,20 +44,61 @@ export class MatrixPart {
   }
 
   update(state: Readonly<State>): void {
-    const wanted = `${state.cell}\n${state.family}`;
+    const wanted = [state.cell, state.rows, state.family, state.robot].join("\n");
     if (wanted === this.#shown) return;
     this.#shown = wanted;
+    const { scenarios } = this.#data.report;
+    const few = scenarios.length <= kFewScenarios;
+    const by_robot = state.rows === "robot" && state.robot === "" && this.#data.robots.length > 1;
+    const { families } = this.#data;
+    const by_family = state.family === "" && families.length > 1 && families.length < scenarios.length;
     redraw(
       this.#controls,
+      !few &&
+        state.robot === "" &&
+        this.#data.robots.length > 0 &&
+        select(
+          "rows",
+          [
+            { value: "", text: by_family ? "families" : "scenarios" },
+            { value: "robot", text: "robots" },
+          ],
+          by_robot ? "robot" : "",
+          (rows) => this.#link.change({ rows }),
+        ),
       ...kFigures.map((figure) =>
         choice(figure.text, figure.name === state.cell, () => this.#link.change({ cell: figure.name })),
       ),
     );
-    const { scenarios } = this.#data.report;
-    if (scenarios.length <= kFewScenarios) this.#by_method(figure_named(state.cell));
-    else if (state.family === "" && this.#data.families.length > 1 && this.#data.families.length < scenarios.length)
-      this.#by_family();
+    if (few) this.#by_method(figure_named(state.cell));
+    else if (by_robot)
+      this.#by_group(
+        "Robot",
+        this.#data.robots.map((robot) => ({ family: state.family, robot })),
+      );
+    else if (by_family)
+      this.#by_group(
+        "Family",
+        families.map((family) => ({ family, robot: state.robot })),
+      );
     else this.#by_scenario(state);
+    const narrowed = [
+      state.family !== "" &&
+        families.length > 1 && [
+          "Family ",
+          h("strong", {}, short(state.family)),
+          " · ",
+          inner_link(this.#link, { family: "" }, "all families"),
+        ],
+      state.robot !== "" &&
+        this.#data.robots.length > 0 && [
+          "Robot ",
+          h("strong", {}, short(state.robot)),
+          " · ",
+          inner_link(this.#link, { robot: "" }, "all robots"),
+        ],
+    ].filter((line): line is Exclude<typeof line, false> => line !== false);
+    if (!few) this.#host.prepend(...narrowed.map((line) => h("p", {}, ...line)));
     this.#hint.textContent = this.#host.querySelector(".matrix .rate")
       ? "Share of successes; each cell leads to its runs."
       : "Each cell leads to the replay; a failure to the tick where it shows.";
@@ -106,9 +147,7 @@ export class MatrixPart {
 
   #by_scenario(state: Readonly<State>): void {
     const { report } = this.#data;
-    const indices = report.scenarios
-      .map((_, index) => index)
-      .filter((index) => state.family === "" || this.#data.family(this.#data.scenario(index)) === state.family);
+    const indices = report.scenarios.map((_, index) => index).filter((index) => this.#data.of_scope(index, state));
     const body = h("tbody");
     const more = h("div", { class: "more" });
     let drawn = 0;
@@ -129,51 +168,40 @@ export class MatrixPart {
       );
     };
     this.#table([h("th", { scope: "col" }, "Scenario"), ...this.#method_heads()], body);
-    if (state.family !== "" && this.#data.families.length > 1) {
-      this.#host.prepend(
-        h(
-          "p",
-          {},
-          "Family ",
-          h("strong", {}, short(state.family)),
-          " · ",
-          inner_link(this.#link, { family: "" }, "all families"),
-        ),
-      );
-    }
     this.#host.append(more);
     draw();
   }
 
-  #by_family(): void {
-    const rows = this.#data.families.map((family) => {
-      const entries = this.#data.summary(family);
-      const size = this.#data.report.scenarios.filter((scenario) => this.#data.family(scenario) === family).length;
+  #by_group(head: string, scopes: { family: string; robot: string }[]): void {
+    const rows = scopes.flatMap((scope) => {
+      const size = this.#data.report.scenarios.filter((_, index) => this.#data.of_scope(index, scope)).length;
+      if (size === 0) return [];
+      const entries = this.#data.summary(scope.family || null, scope.robot || null);
       return h(
         "tr",
         {},
         h(
           "th",
           { scope: "row" },
-          inner_link(this.#link, { family }, short(family, 40)),
+          inner_link(this.#link, scope, short(head === "Robot" ? scope.robot : scope.family, 40)),
           h("span", { class: "unit block" }, `${count(size)} scenario${size === 1 ? "" : "s"}`),
         ),
         ...this.#data.report.methods.map((_, method) =>
-          this.#family_cell(
+          this.#group_cell(
             entries.find((entry) => entry.method === method),
             figure_named(this.#link.state.cell),
           ),
         ),
       );
     });
-    this.#table([h("th", { scope: "col" }, "Family"), ...this.#method_heads()], h("tbody", {}, ...rows));
+    this.#table([h("th", { scope: "col" }, head), ...this.#method_heads()], h("tbody", {}, ...rows));
   }
 
   #method_heads(): HTMLElement[] {
     return this.#data.report.methods.map((_, method) => h("th", { scope: "col" }, method_name(this.#data, method)));
   }
 
-  #family_cell(entry: MethodSummary | undefined, figure: Figure): HTMLElement {
+  #group_cell(entry: MethodSummary | undefined, figure: Figure): HTMLElement {
     if (!entry || entry.runs === 0)
       return h("td", { class: "cell not-applicable" }, h("span", { class: "verdict not-applicable" }, "– n/a"));
     const value = figure.of_all(entry);
@@ -188,7 +216,7 @@ export class MatrixPart {
       { class: `cell ${entry.wrong_claims > 0 ? "lies" : ""}` },
       inner_link(
         this.#link,
-        { family: entry.family ?? "", only: this.#data.method_key(entry.method) },
+        { family: entry.family ?? "", robot: entry.robot ?? "", only: this.#data.method_key(entry.method) },
         h("strong", {}, percent(entry.rate)),
         rate_bar(entry),
         h("span", { class: "second" }, text),

@@ -1,7 +1,7 @@
-// One line for each variant, over all scenarios or one family, with the statistics of the program.
+// One line for each variant, over all scenarios, one family or one robot, with the statistics of the program.
 import type { MethodSummary, ReportData } from "../data";
 import { failure_word } from "../data";
-import { cut, h, redraw, select, type Child } from "../dom";
+import { cut, h, redraw, type Child } from "../dom";
 import { count, interval, kNone, microseconds, millimetres, percent, time } from "../format";
 import type { Link, State } from "../link";
 import {
@@ -11,6 +11,7 @@ import {
   marked_microseconds,
   rate_bar,
   rate_interval,
+  scope_choice,
   time_mark_of_all,
 } from "../parts";
 import { SortedTable, type Column } from "../table";
@@ -39,22 +40,17 @@ export class MethodsPart {
   }
 
   update(state: Readonly<State>): void {
-    const wanted = `${state.family}\n${state.sort}`;
+    const wanted = `${state.family}\n${state.robot}\n${state.sort}`;
     if (wanted === this.#shown) return;
     this.#shown = wanted;
-    const { families } = this.#data;
-    const family = families.includes(state.family) ? state.family : null;
+    const family = this.#data.families.includes(state.family) ? state.family : null;
+    const robot = this.#data.robots.includes(state.robot) ? state.robot : null;
     redraw(
       this.#controls,
-      families.length > 1 &&
-        select(
-          "over",
-          [{ value: "", text: "all scenarios" }, ...families.map((name) => ({ value: name, text: name }))],
-          family ?? "",
-          (value) => this.#link.change({ family: value }),
-        ),
+      scope_choice(this.#data, this.#link, "family", "all scenarios", "over"),
+      scope_choice(this.#data, this.#link, "robot", "all", "robot"),
     );
-    this.#table.set(this.#data.summary(family));
+    this.#table.set(this.#data.summary(family, robot));
   }
 
   dispose(): void {
@@ -65,7 +61,7 @@ export class MethodsPart {
   #best(entry: MethodSummary, key: "best_rate" | "best_tip_error" | "best_step"): Child {
     if (entry[key] !== true) return null;
     const rivals = key === "best_rate" ? "every other" : "every other that is best or tied by success";
-    const ties = this.#data.summary(entry.family).filter((other) => other[key] === true).length;
+    const ties = this.#data.summary(entry.family, entry.robot).filter((other) => other[key] === true).length;
     return h(
       "span",
       {
@@ -219,7 +215,12 @@ export class MethodsPart {
     const classes = Object.entries(entry.failures)
       .sort((a, b) => (b[1] ?? 0) - (a[1] ?? 0))
       .map(([name, number]) => `${failure_word(name)} ${number}`);
-    const change = { verdict: "failed", only: this.#data.method_key(entry.method), family: entry.family ?? "" };
+    const change = {
+      verdict: "failed",
+      only: this.#data.method_key(entry.method),
+      family: entry.family ?? "",
+      robot: entry.robot ?? "",
+    };
     return h(
       "span",
       { class: "failures", title: cut(classes.join(", "), 500) },

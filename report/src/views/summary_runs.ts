@@ -11,6 +11,7 @@ import {
   reason,
   run_change,
   run_time,
+  scope_choice,
   time_mark,
   verdict_badge,
   verdict_of,
@@ -70,6 +71,7 @@ export class RunsPart {
       const text = [
         data.scenario_key(run.scenario),
         data.method_key(run.method),
+        data.scenario(run.scenario).robot,
         verdict.word,
         ...run.failures,
         run.claimed,
@@ -98,7 +100,9 @@ export class RunsPart {
   }
 
   update(state: Readonly<State>): void {
-    const wanted = [state.find, state.verdict, state.family, state.only, state.sort, state.open].join("\n");
+    const wanted = [state.find, state.verdict, state.family, state.robot, state.only, state.sort, state.open].join(
+      "\n",
+    );
     if (wanted === this.#shown) return;
     const first = this.#shown === "?";
     this.#shown = wanted;
@@ -111,7 +115,7 @@ export class RunsPart {
         (state.open === "" || row.run.record === state.open) &&
         (chosen?.holds(row) ?? true) &&
         (state.only === "" || row.run.method === only) &&
-        (state.family === "" || this.#data.family(this.#data.scenario(row.run.scenario)) === state.family) &&
+        this.#data.of_scope(row.run.scenario, state) &&
         needles.every((word) => row.text.includes(word)),
     );
     this.#number.textContent =
@@ -134,8 +138,9 @@ export class RunsPart {
     if (document.activeElement !== this.#find) this.#find.value = state.find;
     const { link, data } = { link: this.#link, data: this.#data };
     const only = data.method_index(state.only);
-    const filtered =
-      state.find !== "" || state.verdict !== "" || state.only !== "" || state.family !== "" || state.open !== "";
+    const filtered = [state.find, state.verdict, state.only, state.family, state.robot, state.open].some(
+      (filter) => filter !== "",
+    );
     const focused = this.#filters.contains(document.activeElement)
       ? [...this.#filters.querySelectorAll("select")].indexOf(document.activeElement as HTMLSelectElement)
       : -1;
@@ -153,13 +158,8 @@ export class RunsPart {
         only < 0 ? state.only : data.method_key(only),
         (only) => link.change({ only, open: "" }),
       ),
-      data.families.length > 1 &&
-        select(
-          "family",
-          [{ value: "", text: "all" }, ...data.families.map((name) => ({ value: name, text: name }))],
-          state.family,
-          (family) => link.change({ family, open: "" }),
-        ),
+      scope_choice(data, link, "family", "all", "family"),
+      scope_choice(data, link, "robot", "all", "robot"),
       filtered &&
         h(
           "button",
@@ -168,7 +168,7 @@ export class RunsPart {
             class: "quiet",
             click: () => {
               this.#find.value = "";
-              link.change({ find: "", verdict: "", only: "", family: "", open: "" });
+              link.change({ find: "", verdict: "", only: "", family: "", robot: "", open: "" });
             },
           },
           "Clear filters",
@@ -211,7 +211,10 @@ export class RunsPart {
         head: "Scenario",
         text: true,
         sort: (row) => data.scenario_key(row.run.scenario),
-        cell: (row) => short(data.scenario_key(row.run.scenario), 36),
+        cell: (row) => [
+          short(data.scenario_key(row.run.scenario), 36),
+          data.robots.length > 0 && h("span", { class: "second" }, short(data.scenario(row.run.scenario).robot, 36)),
+        ],
       },
       {
         name: "method",

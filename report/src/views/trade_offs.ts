@@ -4,15 +4,15 @@ import type { ReportData } from "../data";
 import { cut, h, redraw, select } from "../dom";
 import { percent } from "../format";
 import type { Link, State, View } from "../link";
-import { drawn_method, heading, inner_link, mark_words, nothing } from "../parts";
+import { drawn_method, heading, inner_link, mark_words, nothing, scope_choice } from "../parts";
 import { SortedTable } from "../table";
 import {
   front,
   kOfTheFront,
   kQuantities,
   mark_in,
-  points_of_family,
   points_of_scenario,
+  points_of_scope,
   quantity,
   value_text,
   type Point,
@@ -105,18 +105,20 @@ class TradeOffs implements View {
   }
 
   update(state: Readonly<State>): void {
-    const wanted = [state.scenario, state.family, state.x, state.y, state.least, state.sort].join("\n");
+    const wanted = [state.scenario, state.family, state.robot, state.x, state.y, state.least, state.sort].join("\n");
     if (wanted === this.#wanted) return;
     this.#wanted = wanted;
     const { scenarios } = this.#data.report;
     const by_scenario = scenarios.length <= kFewScenarios;
     const scenario = by_scenario ? this.#data.scenario_index(state.scenario) : -1;
     const family = !by_scenario && this.#data.families.includes(state.family) ? state.family : null;
-    const points = scenario >= 0 ? points_of_scenario(this.#data, scenario) : points_of_family(this.#data, family);
+    const robot = !by_scenario && this.#data.robots.includes(state.robot) ? state.robot : null;
+    const points =
+      scenario >= 0 ? points_of_scenario(this.#data, scenario) : points_of_scope(this.#data, family, robot);
     const x = quantity(state.x, "time");
     const y = quantity(state.y, "error");
     this.#least = (state.least === "" ? 90 : Number(state.least) || 0) / 100;
-    this.#draw_controls(state, by_scenario, scenario, family, x, y);
+    this.#draw_controls(state, by_scenario, scenario, x, y);
 
     const enough = points.filter((point) => point.rate >= this.#least);
     this.#on_front = new Set(
@@ -160,16 +162,8 @@ class TradeOffs implements View {
     this.#table.dispose();
   }
 
-  #draw_controls(
-    state: Readonly<State>,
-    by_scenario: boolean,
-    scenario: number,
-    family: string | null,
-    x: Quantity,
-    y: Quantity,
-  ): void {
+  #draw_controls(state: Readonly<State>, by_scenario: boolean, scenario: number, x: Quantity, y: Quantity): void {
     const { scenarios } = this.#data.report;
-    const all = { value: "", text: "all scenarios" };
     const quantities = kQuantities.map((q) => ({ value: q.name, text: q.text }));
     redraw(
       this.#controls,
@@ -177,18 +171,14 @@ class TradeOffs implements View {
         ? select(
             "of",
             [
-              all,
+              { value: "", text: "all scenarios" },
               ...scenarios.map((_, s) => ({ value: this.#data.scenario_key(s), text: this.#data.scenario_key(s) })),
             ],
             scenario >= 0 ? this.#data.scenario_key(scenario) : "",
             (value) => this.#link.change({ scenario: value }),
           )
-        : select(
-            "of",
-            [all, ...this.#data.families.map((name) => ({ value: name, text: name }))],
-            family ?? "",
-            (value) => this.#link.change({ family: value }),
-          ),
+        : scope_choice(this.#data, this.#link, "family", "all scenarios", "of"),
+      !by_scenario && scope_choice(this.#data, this.#link, "robot", "all", "robot"),
       select("across", quantities, x.name, (value) => this.#link.change({ x: value })),
       select("up", quantities, y.name, (value) => this.#link.change({ y: value })),
       select(

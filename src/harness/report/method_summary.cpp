@@ -199,8 +199,17 @@ Json rate_json(const Tally& tally) {
   return {{"rate", rate}, {"rate_lower", interval.lower}, {"rate_upper", interval.upper}};
 }
 
-Json method_json(const std::optional<std::string>& family, std::size_t method,
-                 const MethodRuns& runs, const Best& best) {
+/// What is added up together.
+struct Scope {
+  std::optional<std::string> family;  ///< nothing: all
+  std::optional<std::string> robot;   ///< nothing: all, and those without a name
+
+  auto operator<=>(const Scope&) const = default;
+};
+
+Json text_or_null(const std::optional<std::string>& text) { return text ? Json(*text) : Json(); }
+
+Json method_json(const Scope& scope, std::size_t method, const MethodRuns& runs, const Best& best) {
   const Tally& tally = runs.tally;
   const MedianOf error = median_with_interval(tally.tip_errors_at_ticks_m);
   const MedianOf step = median_with_interval(runs.step_medians_s);
@@ -211,7 +220,8 @@ Json method_json(const std::optional<std::string>& family, std::size_t method,
                                 : TableRow::kNone;
   const double p99 = std::fmin(tally.step_times.quantile(0.99) * RunTimes::kHistogramUnit,
                                tally.slowest_of_successes_s);
-  Json json = {{"family", family ? Json(*family) : Json()},
+  Json json = {{"family", text_or_null(scope.family)},
+               {"robot", text_or_null(scope.robot)},
                {"method", method},
                {"runs", tally.runs},
                {"not_applicable", tally.not_applicable},
@@ -246,31 +256,46 @@ Json method_json(const std::optional<std::string>& family, std::size_t method,
   return json;
 }
 
-void add_scope(const std::optional<std::string>& family, const std::vector<MethodRuns>& methods,
-               Json& summary) {
+void add_scope(const Scope& scope, const std::vector<MethodRuns>& methods, Json& summary) {
   const Best best = best_of(methods);
   for (std::size_t m = 0; m < methods.size(); ++m) {
     if (methods[m].tally.runs + methods[m].tally.not_applicable == 0) continue;
-    summary.push_back(method_json(family, m, methods[m], best));
+    summary.push_back(method_json(scope, m, methods[m], best));
   }
 }
 
 }  // namespace
 
 Json summary_json(const std::vector<IndexedRun>& runs, std::size_t methods) {
-  std::vector<MethodRuns> all(methods);
   Order families;
-  std::map<std::string, std::vector<MethodRuns>> by_family;
+  Order robots;
+  std::map<Scope, std::vector<MethodRuns>> scopes;
   for (const IndexedRun& run : runs) {
-    const std::string family = family_of(run.row().scenario);
+    const TableRow& row = run.row();
+    const auto add_to = [&](const Scope& scope) {
+      scopes.try_emplace(scope, methods).first->second[run.method].add(row);
+    };
+    const std::string family = family_of(row.scenario);
     families.add(family);
-    all[run.method].add(run.row());
-    by_family.try_emplace(family, methods).first->second[run.method].add(run.row());
+    add_to({});
+    add_to({family, {}});
+    if (row.robot.empty()) continue;
+    robots.add(row.robot);
+    add_to({{}, row.robot});
+    add_to({family, row.robot});
   }
   Json summary = Json::array();
-  add_scope(std::nullopt, all, summary);
-  for (const std::string& family : families.names()) {
-    add_scope(family, by_family.at(family), summary);
+  const auto add_scopes_of = [&](const std::optional<std::string>& robot) {
+    const auto add = [&](const Scope& scope) {
+      const auto found = scopes.find(scope);
+      if (found != scopes.end()) add_scope(scope, found->second, summary);
+    };
+    add({{}, robot});
+    for (const std::string& family : families.names()) add({family, robot});
+  };
+  add_scopes_of(std::nullopt);
+  if (robots.names().size() > 1) {
+    for (const std::string& robot : robots.names()) add_scopes_of(robot);
   }
   return summary;
 }

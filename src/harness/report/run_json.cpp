@@ -227,6 +227,7 @@ Json scenario_json(const ExportedScenario& scenario, const std::string& descript
           {"file", scenario.file},
           {"sha256", scenario.sha256},
           {"family", family == scenario.name ? "" : family},
+          {"robot", scenario.robot},
           {"description", description},
           {"dimension", scenario.dimension},
           {"joints", scenario.joints},

@@ -5,6 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+
 #include "bulk_reader.hpp"
 #include "harness/report/paper_figures.hpp"
 #include "harness/results/summary.hpp"
@@ -155,7 +160,8 @@ TEST_F(Page, AddsUpAsTheStatisticsSay) {
   const nlohmann::json page = as_read(results_.page());
   int all = 0;
   for (const nlohmann::json& summary : page["summary"]) {
-    if (summary["family"].is_null()) all += summary["runs"].get<int>();
+    if (summary["family"].is_null() && summary["robot"].is_null())
+      all += summary["runs"].get<int>();
     if (summary["runs"] == 0) continue;
     const double successes = summary["successes"], runs = summary["runs"];
     EXPECT_DOUBLE_EQ(summary["rate"], successes / runs);
@@ -164,6 +170,45 @@ TEST_F(Page, AddsUpAsTheStatisticsSay) {
     EXPECT_DOUBLE_EQ(summary["rate_upper"], interval.upper);
   }
   EXPECT_EQ(all, 4);
+}
+
+TEST_F(Page, AddsUpByRobotWhereTwoHaveNames) {
+  const auto name_robots = [this](const char* of_the_plane, const char* of_space) {
+    results_.change([&](nlohmann::json& record) {
+      record["problem"]["robot"] =
+          record["scenario"]["name"] == "planar_7r" ? of_the_plane : of_space;
+    });
+  };
+  name_robots("flat </script>", "tall");
+  const nlohmann::json page = as_read(results_.page());
+  EXPECT_EQ(schema_errors(page), "");
+  EXPECT_EQ(page["scenarios"][0]["robot"], "flat </script>");
+  EXPECT_EQ(page["scenarios"][1]["robot"], "tall");
+  // Both robots have one family each, named as its one scenario.
+  std::map<std::tuple<std::string, std::string, std::size_t>, std::pair<int, int>> expected;
+  for (const nlohmann::json& run : page["runs"]) {
+    const nlohmann::json& scenario = page["scenarios"][run["scenario"].get<std::size_t>()];
+    for (const std::string& family : {std::string("all"), scenario["name"].get<std::string>()}) {
+      auto& [runs, successes] = expected[{scenario["robot"], family, run["method"]}];
+      runs += run["applicable"] == true ? 1 : 0;
+      successes += run["success"] == true ? 1 : 0;
+    }
+  }
+  std::map<std::tuple<std::string, std::string, std::size_t>, std::pair<int, int>> found;
+  for (const nlohmann::json& entry : page["summary"]) {
+    if (entry["robot"].is_null()) continue;
+    const std::string family = entry["family"].is_null() ? "all" : entry["family"];
+    EXPECT_TRUE(found
+                    .insert({{entry["robot"], family, entry["method"]},
+                             {entry["runs"], entry["successes"]}})
+                    .second);
+  }
+  EXPECT_EQ(found, expected);
+
+  name_robots("tall", "tall");
+  for (const nlohmann::json& entry : as_read(results_.page())["summary"]) {
+    EXPECT_TRUE(entry["robot"].is_null());
+  }
 }
 
 TEST_F(Page, HasNoSceneOfAScenarioThatHasChanged) {
