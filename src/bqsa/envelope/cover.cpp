@@ -32,6 +32,12 @@ struct Piece {
         inflation(
             largest_inflation(ellipsoid, whole, kAccuracy * ellipsoid.semi_axes().maxCoeff())) {}
 
+  /// Whether division would not make it smaller.
+  bool is_least(double least_semi_axis) const {
+    constexpr double kRounding = 1e-9;
+    return ellipsoid.semi_axes().maxCoeff() <= (1 + kRounding) * least_semi_axis;
+  }
+
   double excess_volume() const { return volume(ellipsoid) - bqsa::volume(part.solid); }
 
   Eigen::Vector3d longest_axis() const {
@@ -71,7 +77,7 @@ Cover cover(const Solid& solid, const CoverSettings& settings) {
         std::max_element(pieces.begin(), pieces.end(), [&](const Piece& a, const Piece& b) {
           return inflates ? a.inflation < b.inflation : a.excess_volume() < b.excess_volume();
         });
-    if (!divisible(worst->part.solid)) break;
+    if (!divisible(worst->part.solid) || worst->is_least(least)) break;
     const std::array<Part, 2> parts = halves(worst->part, worst->longest_axis());
     *worst = Piece(parts[0], solid, least);
     pieces.emplace_back(parts[1], solid, least);

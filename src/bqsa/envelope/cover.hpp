@@ -34,7 +34,8 @@ struct Cover {
   double volume_ratio = 0;
 
   bool within_bounds =
-      true;  ///< or max_ellipsoids, or a part that is not divisible, ended the division
+      true;  ///< or max_ellipsoids, or a part that is not divisible or is in an ellipsoid with
+             ///< least semi-axes alone, ended the division
 };
 
 /// Starts with one ellipsoid. While a bound is exceeded and another ellipsoid allowed, the one that

@@ -173,6 +173,27 @@ TEST(Cover, OfASegmentAndOfAPointIsThin) {
   EXPECT_TRUE(ball.ellipsoids[0].semi_axes().isApprox(Vector3d::Constant(1e-3), 1e-9));
 }
 
+/// A grain in a ball of the least radius inflates by more than is asked for, however it is divided.
+TEST(Cover, OfAGrainIsOneBallOfTheLeastRadius) {
+  const CoverSettings settings{.inflation = 1e-4, .max_ellipsoids = 200, .least_semi_axis = 1e-3};
+  const Box grain{Vector3d(0.5, 0.4, 0.3), Vector3d::Constant(2.5e-4)};
+  std::vector<Vector3d> corners;
+  for (const double x : {-1.0, 1.0}) {
+    for (const double y : {-1.0, 1.0}) {
+      for (const double z : {-1.0, 1.0}) {
+        corners.emplace_back(grain.center + grain.half_lengths.cwiseProduct(Vector3d(x, y, z)));
+      }
+    }
+  }
+  for (const Solid& solid : {Solid(grain), Solid(convex_hull(corners))}) {
+    const Cover result = cover(solid, settings);
+    ASSERT_EQ(result.ellipsoids.size(), 1U);
+    EXPECT_TRUE(result.ellipsoids[0].semi_axes().isApproxToConstant(1e-3, 1e-9));
+    EXPECT_FALSE(result.within_bounds);
+    EXPECT_NEAR(result.inflation, 1e-3 - 2.5e-4, 2e-6);
+  }
+}
+
 TEST(Cover, RefusesBoundsThatAreNone) {
   const Ball ball{{0, 0, 0}, 1};
   EXPECT_THROW(cover(ball, {.inflation = 0}), std::invalid_argument);
