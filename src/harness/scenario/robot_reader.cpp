@@ -173,27 +173,38 @@ Robot read_urdf_robot(const YamlValue& value, const Units& units, NamedFiles& fi
   const YamlValue file = value.get("file", "a file in URDF");
   const std::string base_link = value.get("base_link", "the name of a link").text();
   const std::string tip_link = value.get("tip_link", "the name of a link").text();
+  const auto point = [&](const char* key) -> Eigen::Vector3d {
+    const auto found = value.find(key);
+    return found ? units.point(*found, 3) : Eigen::Vector3d::Zero();
+  };
+  const auto turn = [&](const char* key) -> Eigen::Matrix3d {
+    const auto found = value.find(key);
+    return found ? read_rpy(*found, units) : Eigen::Matrix3d::Identity();
+  };
+  const Eigen::Vector3d p_WB = point("base"), p_LinkTool = point("tool");
+  const Eigen::Matrix3d R_WB = turn("rpy"), R_LinkTool = turn("tool_rpy");
+  const auto radius = value.find("link_radius");
   const NamedFiles::File urdf = files.read(file, kMaxBytes);
+  UrdfChain read;
+  std::vector<double> radii;
   try {
-    UrdfChain read = read_urdf_chain(urdf.text, base_link, tip_link);
-    if (const auto base = value.find("base")) read.chain.p_WB = units.point(*base, 3);
-    if (const auto rpy = value.find("rpy")) read.chain.R_WB = read_rpy(*rpy, units);
-    if (const auto tool = value.find("tool"))
-      read.chain.p_LT += read.chain.R_LT * units.point(*tool, 3);
-    if (const auto turn = value.find("tool_rpy")) read.chain.R_LT *= read_rpy(*turn, units);
-    Robot robot{.chain = SerialChain(read.chain),
-                .limits = read.limits,
-                .joint_names = std::move(read.joints),
-                .name = is_title(read.robot) ? read.robot : ""};
-    const auto radius = value.find("link_radius");
+    read = read_urdf_chain(urdf.text, base_link, tip_link);
+    read.chain.p_WB = p_WB;
+    read.chain.R_WB = R_WB;
+    read.chain.p_LT += read.chain.R_LT * p_LinkTool;
+    read.chain.R_LT *= R_LinkTool;
     if (radius && radius->is(kCapsules)) {
-      robot.link_radii = least_link_radii(urdf.text, base_link, tip_link, read.chain, read.limits,
-                                          meshes(file, files));
+      radii = least_link_radii(urdf.text, base_link, tip_link, read.chain, read.limits,
+                               meshes(file, files));
     }
-    return robot;
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", urdf.name, error.what()));
   }
+  return {.chain = SerialChain(read.chain),
+          .limits = read.limits,
+          .link_radii = std::move(radii),
+          .joint_names = std::move(read.joints),
+          .name = is_title(read.robot) ? read.robot : ""};
 }
 
 /// Reads `link_radius`: a length, or a list of them.

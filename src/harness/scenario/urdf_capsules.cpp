@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <set>
 
@@ -107,7 +108,14 @@ Body body_of(const UrdfModel& model, const std::string& name, const JointPlaceme
       }
       Shape shape = shape_of(link, *collision->geometry, mesh);
       const JointPlacement X_FS = composed(X, placement(collision->origin));
-      for (Vector3d& point : shape.points) point = (X_FS.p_PJ + X_FS.R_PJ * point).eval();
+      for (Vector3d& point : shape.points) {
+        point = (X_FS.p_PJ + X_FS.R_PJ * point).eval();
+        if (point.cwiseAbs().maxCoeff() + shape.radius <= kMaxLength) continue;
+        throw InputError(fmt::format(
+            "link '{}': expected collision geometry within {} m of the joint before it, got some "
+            "beyond",
+            excerpt(link.name), kMaxLength));
+      }
       body.push_back(std::move(shape));
     }
     for (const urdf::JointSharedPtr& joint : link.child_joints) {
@@ -213,19 +221,21 @@ std::vector<double> least_link_radii(const std::string& urdf, const std::string&
   for (const int frame : without_link) {
     const Body& body = all[static_cast<std::size_t>(frame)];
     const auto after = std::ranges::upper_bound(links, frame, {}, &Link::start) - links.begin();
-    double* grown =
-        nullptr;  // the neighbour that has to grow least, both ending in the frame's origin
-    double radius = 0;
-    for (const auto k : {after - 1, after}) {
-      if (k < 0 || k >= std::ssize(links)) continue;
+    // The neighbours both end in the frame's origin; the one that has to grow least takes the body.
+    const auto first = std::max<std::ptrdiff_t>(after - 1, 0);
+    auto taker = static_cast<std::size_t>(first);
+    double taken = radii[taker];
+    double least = std::numeric_limits<double>::infinity();
+    for (auto k = first; k < std::min(after + 1, std::ssize(links)); ++k) {
+      const auto link = static_cast<std::size_t>(k);
       const double needed =
-          furthest(body, seen_from(frame, links[static_cast<std::size_t>(k)], chain));
-      double& own = radii[static_cast<std::size_t>(k)];
-      if (grown != nullptr && needed - own >= radius - *grown) continue;
-      grown = &own;
-      radius = needed;
+          std::max(radii[link], furthest(body, seen_from(frame, links[link], chain)));
+      if (needed - radii[link] >= least) continue;
+      least = needed - radii[link];
+      taker = link;
+      taken = needed;
     }
-    *grown = std::max(*grown, radius);
+    radii[taker] = taken;
   }
   for (double& radius : radii) {
     if (radius > 0) radius = std::max(radius, kMinLength);

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "harness/scenario/units.hpp"
 #include "harness/scenario/urdf_model.hpp"
 #include "harness/text_file.hpp"
 
@@ -12,6 +14,15 @@ namespace bqsa::harness {
 namespace {
 
 using Eigen::Matrix3d;
+
+/// Coordinates that programs have rounded to nearly nothing are nothing, or there would be a link of
+/// that length [m].
+constexpr double kNothing = 1e-12;
+
+/// The place of a joint, or of the tip, in the frame before it.
+Eigen::Vector3d place(const JointPlacement& placement) {
+  return placement.p_PJ.norm() < kNothing ? Eigen::Vector3d::Zero() : placement.p_PJ;
+}
 
 bool moves(const urdf::Joint& joint) {
   return joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS ||
@@ -34,6 +45,11 @@ void add_limits(const std::vector<urdf::JointSharedPtr>& moving, UrdfChain& resu
       upper(j) = joint.limits->upper;
       if (!(lower(j) <= upper(j))) {
         refuse(joint, "a lower limit not above the upper one",
+               fmt::format("{} and {}", lower(j), upper(j)));
+      }
+      const bool slides = joint.type == urdf::Joint::PRISMATIC;
+      if (slides && !(std::max(-lower(j), upper(j)) <= kMaxLength)) {
+        refuse(joint, fmt::format("limits within {} m", kMaxLength),
                fmt::format("{} and {}", lower(j), upper(j)));
       }
     }
@@ -63,6 +79,10 @@ UrdfChain read_urdf_chain(const std::string& urdf, const std::string& base,
   JointPlacement since;  // the last joint that moves, or the base
   for (const urdf::JointSharedPtr& joint : model.joints_between(base, tip)) {
     since = composed(since, placement(joint->parent_to_joint_origin_transform));
+    if (!(since.p_PJ.cwiseAbs().maxCoeff() <= kMaxLength)) {
+      refuse(*joint, fmt::format("an origin within {} m of the joint before it", kMaxLength),
+             "one beyond");
+    }
     if (joint->type == urdf::Joint::FIXED) continue;
     if (!moves(*joint)) {
       refuse(*joint, "a revolute, continuous, prismatic or fixed joint", name_of(*joint));
@@ -75,7 +95,7 @@ UrdfChain read_urdf_chain(const std::string& urdf, const std::string& base,
     const bool slides = joint->type == urdf::Joint::PRISMATIC;
     result.chain.placements.push_back(
         {.R_PJ = since.R_PJ * R,
-         .p_PJ = since.p_PJ,
+         .p_PJ = place(since),
          .type = slides ? JointType::kPrismatic : JointType::kRevolute});
     since = {.R_PJ = R.transpose()};
     moving.push_back(joint);
@@ -85,7 +105,7 @@ UrdfChain read_urdf_chain(const std::string& urdf, const std::string& base,
     throw InputError(fmt::format("expected 1 to {} joints that move between '{}' and '{}', got {}",
                                  kMaxJoints, excerpt(base), excerpt(tip), moving.size()));
   }
-  result.chain.p_LT = since.p_PJ;
+  result.chain.p_LT = place(since);
   result.chain.R_LT = since.R_PJ;
   add_limits(moving, result);
   return result;

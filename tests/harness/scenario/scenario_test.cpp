@@ -778,6 +778,12 @@ TEST(Scenario, WhatIsWrongWithAUrdfFileIsSaidWithItsName) {
   EXPECT_EQ(refusal("{kind: urdf, file: elbow.urdf, base_link: world, tip_link: hand, limits: "
                     "{lower: [0, 0]}}"),
             "s.yaml:4: robot.limits: expected a known key, the nearest being kind, got limits");
+  const std::string elbow = "{kind: urdf, file: elbow.urdf, base_link: world, tip_link: hand";
+  for (const std::string key : {"base", "rpy", "tool", "tool_rpy"}) {
+    EXPECT_TRUE(refusal(elbow + ", " + key + ": [0, 0]}")
+                    .starts_with("s.yaml:4: robot." + key + ": expected"))
+        << refusal(elbow + ", " + key + ": [0, 0]}");
+  }
 }
 
 TEST(Scenario, Sha256CountsTheFilesThatAScenarioNames) {

@@ -334,5 +334,17 @@ TEST(UrdfCapsules, RefuseWhatHasNoSize) {
   EXPECT_EQ(refusal(at("0 0 0", "<sphere radius='0.1'/>")), "no error");
 }
 
+TEST(UrdfCapsules, RefuseWhatIsBeyondRange) {
+  const std::string beyond =
+      "link 'base': expected collision geometry within 1000000 m of the joint before it, got some "
+      "beyond";
+  EXPECT_EQ(refusal(at("0 0 0", "<mesh filename='m.stl' scale='1e308 1e308 1e308'/>") +
+                    at("0 0 0", "<sphere radius='0.1'/>")),
+            beyond);
+  EXPECT_EQ(refusal(at("2e6 0 0", "<sphere radius='0.1'/>")), beyond);
+  EXPECT_EQ(refusal(at("0 0 0", "<sphere radius='2e6'/>")), beyond);
+  EXPECT_EQ(refusal(at("9e5 0 0", "<sphere radius='0.1'/>")), "no error");
+}
+
 }  // namespace
 }  // namespace bqsa::harness

@@ -341,6 +341,31 @@ TEST(UrdfChain, RefusesAnAxisBeyondRange) {
       "joint 'two': expected an axis of some length, got (1e+200, 0, 0)");
 }
 
+std::string turning_at(const std::string& xyz) {
+  return "<origin xyz='" + xyz +
+         "'/><axis xyz='0 0 1'/><limit lower='-1' upper='2' effort='0' velocity='3'/>";
+}
+
+TEST(UrdfChain, RefusesLengthsBeyondRange) {
+  EXPECT_EQ(refusal(two_joints(turning_at("6e5 0 0"), turning_at("0 0 -9e5"))), "no error");
+  EXPECT_EQ(
+      refusal(two_joints(kGood, turning_at("0 1e308 0"))),
+      "joint 'two': expected an origin within 1000000 m of the joint before it, got one beyond");
+  EXPECT_EQ(refusal(two_joints(kGood, "<limit lower='-1' upper='2e6' effort='0' velocity='3'/>",
+                               "prismatic")),
+            "joint 'two': expected limits within 1000000 m, got -1 and 2000000");
+}
+
+/// What programs write for nothing is no link, so that those beside it follow each other.
+TEST(UrdfChain, RoundingLeavesNoLinks) {
+  const auto links = [](const std::string& xyz) {
+    const std::string urdf = two_joints(turning_at("0 0 0.3"), turning_at(xyz));
+    return SerialChain(read_urdf_chain(urdf, "a", "c").chain).links().size();
+  };
+  EXPECT_EQ(links("0 0 -1.1102e-16"), links("0 0 0"));
+  EXPECT_EQ(links("0 0 1e-9"), links("0 0 0") + 1);
+}
+
 TEST(UrdfChain, SaysWhatTheParserSaysOfTextThatIsNoUrdf) {
   for (const std::string text : {"", "<robot", "<robot name='r'/>", "<sdf/>", "plain",
                                  "<robot name='r'><link name='a'/><link name='a'/></robot>"}) {
