@@ -67,15 +67,6 @@ void limit(__rlimit_resource resource, std::uint64_t value) {
   setrlimit(resource, &both);
 }
 
-void write_all(int file, const std::string& bytes) {
-  std::size_t done = 0;
-  while (done < bytes.size()) {
-    const ssize_t written = write(file, bytes.data() + done, bytes.size() - done);
-    if (written < 0 && errno != EINTR) return;
-    done += static_cast<std::size_t>(std::max<ssize_t>(written, 0));
-  }
-}
-
 void let_all_signals_through() {
   sigset_t none;
   sigemptyset(&none);

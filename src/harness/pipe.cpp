@@ -31,4 +31,12 @@ bool read_some(int file, std::string& text) {
   return count > 0;
 }
 
+void write_all(int file, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = write(file, bytes.data(), bytes.size());
+    if (written < 0 && errno != EINTR) return;
+    if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
 }  // namespace bqsa::harness

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace bqsa::harness {
@@ -38,5 +39,8 @@ struct Pipe {
 /// Reads what there is, at most once, and adds it to the text.
 /// @return whether more may come
 bool read_some(int file, std::string& text);
+
+/// Writes all of it, or as much as the other end takes.
+void write_all(int file, std::string_view bytes);
 
 }  // namespace bqsa::harness

@@ -11,13 +11,16 @@
 #include <array>
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <map>
-#include <numeric>
 #include <utility>
 
+#include "harness/guarded_call.hpp"
 #include "harness/input_error.hpp"
 
 namespace bqsa::harness {
@@ -26,9 +29,13 @@ namespace {
 constexpr std::size_t kMaxTriangles = 2'000'000;
 constexpr std::size_t kMaxParts = 1000;
 
-/// Corners by number, each place once.
+/// Of the largest coordinate: corners this near to each other are meant to be one. Single precision and
+/// files with six digits round by less.
+constexpr double kWeld = 1e-6;
+
 struct Mesh {
-  std::vector<Eigen::Vector3d> vertices;
+  std::vector<Eigen::Vector3d> vertices;  ///< each once
+  std::vector<int> places;                ///< for each vertex a number that those nearby have, too
   std::vector<std::array<int, 3>> triangles;
 };
 
@@ -47,64 +54,130 @@ struct LessByCoordinates {
   }
 };
 
-class MeshReader {
- public:
-  MeshReader(const std::string& name, const std::string& text) : name_(name) {
-    std::string ending = std::filesystem::path(name).extension().string();
-    if (!ending.empty()) ending.erase(0, 1);
-    Assimp::Importer importer;
-    if (ending.empty() || !importer.IsExtensionSupported(ending)) {
-      fail("a mesh file (.stl, .obj, .ply, .dae or another that Assimp reads)",
+[[noreturn]] void refuse(const std::string& name, const std::string& expected,
+                         const std::string& got) {
+  throw InputError(fmt::format("{}: expected {}, got {}", name, expected, got));
+}
+
+/// In lower case, without the dot.
+std::string ending_of(const std::string& name) {
+  std::string ending = std::filesystem::path(name).extension().string();
+  if (!ending.empty()) ending.erase(0, 1);
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
+}
+
+/// Coordinates of the corners of all triangles, as Assimp gives them.
+std::vector<float> imported(const std::string& name, const std::string& text) {
+  const std::string ending = ending_of(name);
+  Assimp::Importer importer;
+  if (ending.empty() || !importer.IsExtensionSupported(ending)) {
+    refuse(name, "a mesh file (.stl, .obj, .ply, .dae or another that Assimp reads)",
            ending.empty() ? "no ending" : "." + ending);
-    }
-    // Coordinates as they are written, as readers of URDF take them, whatever axis is said to be up.
-    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-    importer.SetIOHandler(new NoFiles);  // which the importer deletes
-    const aiScene* scene = importer.ReadFileFromMemory(
-        text.data(), text.size(), aiProcess_Triangulate | aiProcess_PreTransformVertices,
-        ending.c_str());
-    if (scene == nullptr) fail("a mesh that can be read", importer.GetErrorString());
-    for (unsigned m = 0; m < scene->mNumMeshes; ++m) add(*scene->mMeshes[m]);
-    if (mesh_.triangles.empty()) fail("triangles", "none");
   }
-
-  const Mesh& mesh() const { return mesh_; }
-
-  [[noreturn]] void fail(const std::string& expected, const std::string& got) const {
-    throw InputError(fmt::format("{}: expected {}, got {}", name_, expected, got));
-  }
-
- private:
-  void add(const aiMesh& mesh) {
-    if (mesh_.triangles.size() + mesh.mNumFaces > kMaxTriangles) {
-      fail(fmt::format("at most {} triangles", kMaxTriangles), "more");
-    }
+  // Coordinates as they are written, as readers of URDF take them, whatever axis is said to be up.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  importer.SetIOHandler(new NoFiles);  // which the importer deletes
+  const aiScene* scene = importer.ReadFileFromMemory(
+      text.data(), text.size(), aiProcess_Triangulate | aiProcess_PreTransformVertices,
+      ending.c_str());
+  if (scene == nullptr) refuse(name, "a mesh that can be read", importer.GetErrorString());
+  std::vector<float> corners;
+  for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
+    const aiMesh& mesh = *scene->mMeshes[m];
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const aiFace& face = mesh.mFaces[f];
       if (face.mNumIndices != 3) continue;  // a point or line
-      std::array<int, 3> corners{};
-      for (unsigned k = 0; k < 3; ++k) corners[k] = number(mesh.mVertices[face.mIndices[k]]);
-      mesh_.triangles.push_back(corners);
+      if (corners.size() >= 9 * kMaxTriangles) {
+        refuse(name, fmt::format("at most {} triangles", kMaxTriangles), "more");
+      }
+      for (unsigned k = 0; k < 3; ++k) {
+        const aiVector3D& corner = mesh.mVertices[face.mIndices[k]];
+        corners.insert(corners.end(), {corner.x, corner.y, corner.z});
+      }
     }
   }
+  return corners;
+}
 
-  int number(const aiVector3D& vertex) {
-    const Eigen::Vector3d place(vertex.x, vertex.y, vertex.z);
-    if (!place.allFinite()) fail("finite coordinates", "one that is not");
-    const auto [known, is_new] = numbers_.try_emplace(place, static_cast<int>(numbers_.size()));
-    if (is_new) mesh_.vertices.push_back(place);
-    return known->second;
+/// Likewise. Some files make Assimp recurse without end or take all memory.
+std::vector<float> imported_guarded(const std::string& name, const std::string& text) {
+  std::string bytes;
+  try {
+    bytes = guarded_call([&] {
+      const std::vector<float> corners = imported(name, text);
+      return std::string(reinterpret_cast<const char*>(corners.data()),
+                         corners.size() * sizeof(float));
+    });
+  } catch (const EndedCall& ended) {
+    refuse(name, "a mesh that can be read", fmt::format("one on which Assimp {}", ended.what()));
   }
+  std::vector<float> corners(bytes.size() / sizeof(float));
+  std::memcpy(corners.data(), bytes.data(), corners.size() * sizeof(float));
+  return corners;
+}
 
-  const std::string& name_;
-  Mesh mesh_;
-  std::map<Eigen::Vector3d, int, LessByCoordinates> numbers_;
-};
+Mesh mesh_of(const std::string& name, const std::vector<float>& corners) {
+  if (corners.empty()) refuse(name, "triangles", "none");
+  Mesh mesh;
+  std::map<Eigen::Vector3d, int, LessByCoordinates> numbers;
+  for (std::size_t first = 0; first < corners.size(); first += 9) {
+    std::array<int, 3> triangle{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const float* at = &corners[first + 3 * k];
+      const Eigen::Vector3d place(at[0], at[1], at[2]);
+      if (!place.allFinite()) refuse(name, "finite coordinates", "one that is not");
+      const auto [known, is_new] = numbers.try_emplace(place, static_cast<int>(numbers.size()));
+      if (is_new) mesh.vertices.push_back(place);
+      triangle[k] = known->second;
+    }
+    mesh.triangles.push_back(triangle);
+  }
+  return mesh;
+}
+
+/// For each vertex the number of one nearby that stands for all in its place: files repeat corners, and
+/// some programs round each copy anew.
+std::vector<int> places_of(const std::vector<Eigen::Vector3d>& vertices) {
+  double largest = 0;
+  for (const Eigen::Vector3d& p : vertices) {
+    largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  }
+  const double near = kWeld * largest;
+  using Cell = std::array<std::int64_t, 3>;
+  const auto cell_of = [&](const Eigen::Vector3d& p) {
+    Cell cell{};
+    if (near > 0) {
+      for (int k = 0; k < 3; ++k) {
+        cell[static_cast<std::size_t>(k)] = std::llround(p(k) / (2 * near));
+      }
+    }
+    return cell;
+  };
+  std::map<Cell, std::vector<int>> known;  // those that stand for others, by cells of twice `near`
+  std::vector<int> result;
+  result.reserve(vertices.size());
+  for (const Eigen::Vector3d& p : vertices) {
+    const auto number = static_cast<int>(result.size());
+    int found = number;
+    // What is near lies in one of the cells of the eight corners of a cube around the point.
+    for (unsigned corner = 0; corner < 8 && found == number; ++corner) {
+      const auto shift = [&](unsigned bit) { return (corner & bit) != 0 ? near : -near; };
+      const auto cell = known.find(cell_of(p + Eigen::Vector3d(shift(1), shift(2), shift(4))));
+      if (cell == known.end()) continue;
+      for (const int other : cell->second) {
+        if ((vertices[static_cast<std::size_t>(other)] - p).norm() <= near) found = other;
+      }
+    }
+    if (found == number) known[cell_of(p)].push_back(number);
+    result.push_back(found);
+  }
+  return result;
+}
 
 /// For each vertex one that stands for all that are connected with it: the first of them.
 std::vector<int> connected(const Mesh& mesh) {
-  std::vector<int> parent(mesh.vertices.size());
-  std::iota(parent.begin(), parent.end(), 0);
+  std::vector<int> parent = mesh.places;
   const auto root = [&](int vertex) {
     while (parent[static_cast<std::size_t>(vertex)] != vertex) {
       int& up = parent[static_cast<std::size_t>(vertex)];
@@ -137,7 +210,11 @@ std::optional<double> enclosed_volume(const Mesh& part) {
       return part.vertices[static_cast<std::size_t>(triangle[k])] - base;
     };
     sum += side(0).cross(side(1)).dot(side(2));
-    for (std::size_t k = 0; k < 3; ++k) ++edges[{triangle[k], triangle[(k + 1) % 3]}];
+    const auto place = [&](std::size_t k) {
+      return part.places[static_cast<std::size_t>(triangle[k])];
+    };
+    if (place(0) == place(1) || place(1) == place(2) || place(2) == place(0)) continue;
+    for (std::size_t k = 0; k < 3; ++k) ++edges[{place(k), place((k + 1) % 3)}];
   }
   const bool closed = std::all_of(edges.begin(), edges.end(), [&](const auto& edge) {
     const auto back = edges.find({edge.first.second, edge.first.first});
@@ -149,16 +226,19 @@ std::optional<double> enclosed_volume(const Mesh& part) {
 
 }  // namespace
 
+bool states_unit(const std::string& name) { return ending_of(name) == "dae"; }
+
 std::vector<MeshPart> read_mesh(const std::string& name, const std::string& text) {
-  const MeshReader reader(name, text);
-  const Mesh& mesh = reader.mesh();
+  Mesh mesh = mesh_of(name, imported_guarded(name, text));
+  mesh.places = places_of(mesh.vertices);
   const std::vector<int> connection = connected(mesh);
   std::map<int, Mesh> parts;
   std::vector<int> number_in_part(mesh.vertices.size());
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    std::vector<Eigen::Vector3d>& vertices = parts[connection[v]].vertices;
-    number_in_part[v] = static_cast<int>(vertices.size());
-    vertices.push_back(mesh.vertices[v]);
+    Mesh& part = parts[connection[v]];
+    number_in_part[v] = static_cast<int>(part.vertices.size());
+    part.vertices.push_back(mesh.vertices[v]);
+    part.places.push_back(mesh.places[v]);
   }
   for (const std::array<int, 3>& triangle : mesh.triangles) {
     std::array<int, 3> corners{};
@@ -168,8 +248,8 @@ std::vector<MeshPart> read_mesh(const std::string& name, const std::string& text
     parts[connection[static_cast<std::size_t>(triangle[0])]].triangles.push_back(corners);
   }
   if (parts.size() > kMaxParts) {
-    reader.fail(fmt::format("at most {} parts that are not connected", kMaxParts),
-                std::to_string(parts.size()));
+    refuse(name, fmt::format("at most {} parts that are not connected", kMaxParts),
+           std::to_string(parts.size()));
   }
   std::vector<MeshPart> result;
   result.reserve(parts.size());

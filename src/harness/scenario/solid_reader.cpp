@@ -58,30 +58,73 @@ SolidDescription read_revolved(const YamlValue& value, const Units& units) {
   return {{Revolved{placed(-half), placed(half), radius}}};
 }
 
-/// A hull thinner than any length may be could pass unhit through the judge's touching band. It
-/// becomes a plate, twice as thick as the least length.
-ConvexHull thickened(ConvexHull hull) {
-  double thickness = std::numeric_limits<double>::infinity();
+/// Three corners of a hull that span it well in its plane: far apart, and the third far from the line
+/// through the others.
+struct WideTriangle {
+  Vector3d from, to, aside;
+
+  explicit WideTriangle(const std::vector<Vector3d>& points) : from(points.front()) {
+    const auto furthest = [&](auto distance) {
+      return *std::ranges::max_element(points, {}, distance);
+    };
+    from = furthest([&](const Vector3d& p) { return (p - points.front()).squaredNorm(); });
+    to = furthest([&](const Vector3d& p) { return (p - from).squaredNorm(); });
+    aside = furthest([&](const Vector3d& p) { return height(p); });
+  }
+
+  double length() const { return (to - from).norm(); }
+
+  /// Distance of a point from the line.
+  double height(const Vector3d& p) const {
+    const Vector3d along = (to - from).stableNormalized();
+    return (p - from - along.dot(p - from) * along).norm();
+  }
+
+  Vector3d normal() const {
+    const Vector3d along = (to - from).stableNormalized();
+    const Vector3d up = aside - from - along.dot(aside - from) * along;
+    return along.cross(up).stableNormalized();
+  }
+};
+
+struct Thickness {
+  double length = std::numeric_limits<double>::infinity();
   Vector3d across = Vector3d::Zero();
+};
+
+/// The least extent across one of the hull's triangles, or across its widest one.
+Thickness thickness_of(const ConvexHull& hull) {
+  Thickness least;
+  const auto try_across = [&](const Vector3d& normal) {
+    if (!(normal.squaredNorm() > 0)) return;  // of a triangle that rounding has left without height
+    double low = 0, high = 0;
+    for (const Vector3d& p : hull.vertices) {
+      const double height = normal.dot(p - hull.vertices.front());
+      low = std::min(low, height);
+      high = std::max(high, height);
+    }
+    if (high - low < least.length) least = {high - low, normal};
+  };
+  try_across(WideTriangle(hull.vertices).normal());
   for (const std::array<int, 3>& triangle : hull.triangles) {
     const auto corner = [&](std::size_t k) -> const Vector3d& {
       return hull.vertices[static_cast<std::size_t>(triangle[k])];
     };
-    const Vector3d normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).stableNormalized();
-    double low = 0, high = 0;
-    for (const Vector3d& p : hull.vertices) {
-      low = std::min(low, normal.dot(p - corner(0)));
-      high = std::max(high, normal.dot(p - corner(0)));
-    }
-    if (high - low >= thickness) continue;
-    thickness = high - low;
-    across = normal;
+    try_across((corner(1) - corner(0)).cross(corner(2) - corner(0)).stableNormalized());
   }
-  if (thickness >= kMinLength) return hull;
+  return least;
+}
+
+/// A hull thinner than any length may be could pass unhit through the judge's touching band. It
+/// becomes a plate, twice as thick as the least length. One that is no line is not thin in a second
+/// direction.
+ConvexHull thickened(ConvexHull hull) {
+  const Thickness thickness = thickness_of(hull);
+  if (thickness.length >= kMinLength) return hull;
   std::vector<Vector3d> points;
   for (const Vector3d& p : hull.vertices) {
-    points.emplace_back(p - kMinLength * across);
-    points.emplace_back(p + kMinLength * across);
+    points.emplace_back(p - kMinLength * thickness.across);
+    points.emplace_back(p + kMinLength * thickness.across);
   }
   return convex_hull(points);
 }
@@ -96,8 +139,11 @@ ConvexHull hull_of(const YamlValue& value, const std::vector<Vector3d>& points,
     }
   }
   ConvexHull hull = convex_hull(points);
-  if (hull.span < 2) {
-    value.fail(what + " that span a plane or more", hull.span == 1 ? "a line" : "one place");
+  // Points on a slanted line are on it up to rounding.
+  const WideTriangle widest(hull.vertices.empty() ? points : hull.vertices);
+  if (hull.span < 2 || widest.height(widest.aside) < kMinLength) {
+    value.fail(what + " that span a plane or more",
+               widest.length() < kMinLength ? "one place" : "a line");
   }
   if (hull.vertices.size() > kMaxCorners) {
     value.fail(fmt::format("{} with a convex hull of at most {} corners", what, kMaxCorners),
@@ -118,9 +164,10 @@ SolidDescription read_mesh_solid(const YamlValue& value, const Units& units, Nam
   value.expect_keys(
       {"name", "kind", "file", "scale", "center", "rpy", "quaternion", "motion", "envelope"});
   const Placement placed = read_placement(value, units, false);
-  const double factor = read_scale(value) / units.per_metre;
+  const double scale = read_scale(value);
   const YamlValue named = value.get("file", "a mesh file");
   const NamedFiles::File file = files.read(named, kMaxFileBytes);
+  const double factor = scale / (states_unit(file.name) ? 1 : units.per_metre);
   SolidDescription solid;
   std::size_t corners = 0;
   double hulls = 0, enclosed = 0;

@@ -273,6 +273,60 @@ TEST(MeshFile, ThatIsNoneIsRefusedByName) {
   EXPECT_THAT(refusal("nan.obj", not_a_number), StartsWith("nan.obj: expected"));
 }
 
+/// Programs that write each triangle by itself may round each copy of a corner anew.
+TEST(MeshFile, OfCornersThatDifferInTheLastDigitsHangsTogether) {
+  const Vector3d far(10, -20, 30);
+  std::string text = "solid test\n";
+  int copy = 0;
+  for (const auto& t : Cuboid::kTriangles) {
+    text += "facet normal 0 0 0\nouter loop\n";
+    for (const unsigned k : t) {
+      const Vector3d p = far + kUnit.corner(k);
+      const double off = 2e-6 * (copy++ % 7 - 3);
+      text += fmt::format("vertex {:.7g} {:.7g} {:.7g}\n", p.x() + off, p.y() - off, p.z() + off);
+    }
+    text += "endloop\nendfacet\n";
+  }
+  const std::vector<MeshPart> parts = read_mesh("box.stl", text + "endsolid test\n");
+  ASSERT_EQ(parts.size(), 1U);
+  EXPECT_NEAR(volume(parts[0].hull), 1, 1e-4);
+  ASSERT_TRUE(parts[0].volume.has_value());
+  EXPECT_NEAR(*parts[0].volume, 1, 1e-4);
+}
+
+TEST(MeshFile, OfBoxesWithAGapBetweenThemIsTwoParts) {
+  EXPECT_EQ(read_mesh("two.obj", obj({kUnit, {{1.00001, 0, 0}, {2, 1, 1}}})).size(), 2U);
+}
+
+TEST(MeshFile, StatesItsUnitInColladaAlone) {
+  std::string text = collada({kLong});
+  text.insert(text.find("<up_axis>"), "<unit name='millimeter' meter='0.001'/>");
+  const std::vector<MeshPart> parts = read_mesh("long.dae", text);
+  ASSERT_EQ(parts.size(), 1U);
+  EXPECT_NEAR(volume(parts[0].hull), 0.5e-9, 1e-14);
+  for (const char* name : {"a.dae", "b/A.DAE"}) EXPECT_TRUE(states_unit(name)) << name;
+  for (const char* name : {"a.stl", "a.obj", "dae"}) EXPECT_FALSE(states_unit(name)) << name;
+}
+
+/// Assimp recurses over the nodes of a file, without looking how often.
+TEST(MeshFile, OnWhichAssimpCrashesIsRefusedByName) {
+  const std::string good = collada({kUnit});
+  std::string loop = good;
+  loop.insert(loop.find("</node>"), "<instance_node url='#n0'/>");
+  std::string deep = good;
+  std::string open, close;
+  for (int i = 0; i < 100'000; ++i) {
+    open += "<node>";
+    close += "</node>";
+  }
+  deep.insert(deep.find("</visual_scene>"), open + close);
+  for (const std::string& text : {loop, deep}) {
+    EXPECT_THAT(refusal("crash.dae", text),
+                testing::StartsWith("crash.dae: expected a mesh that can be read, got one on which "
+                                    "Assimp "));
+  }
+}
+
 TEST(MeshFile, OfTooManyPartsIsRefused) {
   std::vector<Cuboid> many;
   for (int i = 0; i <= 1000; ++i) {

@@ -1,10 +1,12 @@
 // Obstacles that are solids: what the judge goes by, what methods are told, and what that costs.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <string>
 
 #include "harness/judge/judge.hpp"
@@ -281,6 +283,116 @@ TEST(Solids, PointsComeFromAListOrAFile) {
             "s.yaml:15: obstacles[0].file: expected points that span a plane or more, got none");
   EXPECT_EQ(refusal("x,y,z\n0,0,0\n0,nan,0\n1,0,0\n"),
             "corners.csv:3: expected finite coordinates, got one that is not");
+}
+
+/// On a slanted line, points are so up to rounding.
+TEST(Solids, PointsOnASlantedLineAreRefusedAsALine) {
+  const TestDirectory directory;
+  for (const char* points : {"[0, 0, 1000], [100, 300, 1500], [200, 600, 2000]",
+                             "[300, 300, 1200], [320, 340, 1260], [360, 420, 1380]",
+                             "[0, 0, 1000], [1000, 0, 1000], [0, 0.0001, 1000]"}) {
+    EXPECT_EQ(message_of(directory,
+                         [&] {
+                           directory.load(scenario_with("  - {name: line, kind: points, points: [" +
+                                                        std::string(points) + "]}\n"));
+                         }),
+              "s.yaml:15: obstacles[0].points: expected points that span a plane or more, got a "
+              "line")
+        << points;
+  }
+}
+
+/// Points along an edge are on it up to rounding: their triangles have no normal to speak of.
+TEST(Solids, ASheetWithPointsAlongItsEdgesIsAPlate) {
+  const TestDirectory directory;
+  int n = 0;
+  for (const Vector3d& slanted :
+       {Vector3d(100, 300, 500), Vector3d(70, 130, 290), Vector3d(30, 10, 70), Vector3d(3, 7, 11),
+        Vector3d(0.1, 0.7, 0.3)}) {
+    for (int steps = 2; steps < 12; ++steps) {
+      std::string points;
+      for (int k = 0; k <= steps; ++k) {
+        points +=
+            fmt::format("[{}, {}, {}], ", k * slanted.x(), k * slanted.y(), 1500 + k * slanted.z());
+      }
+      const Scenario scenario = directory.load(scenario_with(
+          "  - {name: sheet, kind: points, points: [" + points + "[-400, 0, 1500]]}\n"));
+      const Vector3d edge = steps * slanted / 1000;
+      const double area = edge.cross(Vector3d(-0.4, 0, 0)).norm() / 2;
+      EXPECT_NEAR(volume(only(scenario).parts.at(0)) / (2e-5 * area), 1, 1e-3) << n << ' ' << steps;
+    }
+    ++n;
+  }
+}
+
+/// Across the needle they reach at least five times as far as the judge's touching band.
+TEST(Solids, NeedlesAreThickEnoughToBeHitFromAllSides) {
+  const TestDirectory directory;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> share(-1, 1);
+  for (int n = 0; n < 60; ++n) {
+    const Eigen::Quaterniond turn =
+        Eigen::Quaterniond(share(random), share(random), share(random), share(random)).normalized();
+    const double across = n % 3 == 0 ? 0.012 : 0.03;                       // [mm]
+    const double flat = n % 2 == 0 ? 0 : 0.004 * std::abs(share(random));  // [mm]
+    std::string points;
+    for (int k = 0; k < 6; ++k) {
+      const Vector3d p = k == 0   ? Vector3d(-100, 0, 0)
+                         : k == 1 ? Vector3d(100, 0, 0)
+                         : k == 2 ? Vector3d(20, across, 0)
+                                  : Vector3d(90 * share(random), across / 2 * (1 + share(random)),
+                                             flat * share(random));
+      const Vector3d placed = Vector3d(0, 0, 1500) + turn * p;
+      points += fmt::format("{}[{:.17g}, {:.17g}, {:.17g}]", k == 0 ? "" : ", ", placed.x(),
+                            placed.y(), placed.z());
+    }
+    const Scenario scenario = directory.load(
+        scenario_with("  - {name: needle, kind: points, points: [" + points + "]}\n"));
+    const auto& hull = std::get<ConvexHull>(only(scenario).parts.at(0));
+    for (int k = 0; k < 180; ++k) {
+      const double angle = std::numbers::pi * k / 180;
+      const Vector3d direction = turn * Vector3d(0, std::cos(angle), std::sin(angle));
+      double low = 0, high = 0;
+      for (const Vector3d& p : hull.vertices) {
+        low = std::min(low, direction.dot(p - hull.vertices.front()));
+        high = std::max(high, direction.dot(p - hull.vertices.front()));
+      }
+      EXPECT_GT(high - low, 5e-6) << n << ' ' << k;
+    }
+  }
+}
+
+TEST(Solids, ColladaStatesItsUnitAndOthersAreInTheScenarios) {
+  const TestDirectory directory;
+  const auto high_end = [&](const std::string& file, const std::string& scale) {
+    const Scenario scenario = directory.load(scenario_with(
+        "  - {name: thing, kind: mesh, file: " + file + ", center: [0, 0, 1500]" + scale + "}\n"));
+    return support_point(Solid(only(scenario).parts.at(0)), Vector3d::UnitX()).x();
+  };
+  directory.write("m.obj", obj({{{0, 0, 0}, {100, 50, 50}}}));
+  EXPECT_NEAR(high_end("m.obj", ""), 0.1, 1e-8);
+  EXPECT_NEAR(high_end("m.obj", ", scale: 2"), 0.2, 1e-8);
+  // A triangle of 100 units of the file.
+  const auto collada = [](const std::string& unit) {
+    return "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' "
+           "version='1.4.1'><asset>" +
+           unit +
+           "<up_axis>Z_UP</up_axis></asset><library_geometries><geometry id='g'><mesh>"
+           "<source id='s'><float_array id='f' count='9'>0 0 0 100 0 0 0 50 50</float_array>"
+           "<technique_common><accessor source='#f' count='3' stride='3'><param name='X' "
+           "type='float'/><param name='Y' type='float'/><param name='Z' type='float'/></accessor>"
+           "</technique_common></source><vertices id='v'><input semantic='POSITION' source='#s'/>"
+           "</vertices><triangles count='1'><input semantic='VERTEX' source='#v' offset='0'/>"
+           "<p>0 1 2</p></triangles></mesh></geometry></library_geometries>"
+           "<library_visual_scenes><visual_scene id='w'><node id='n'><instance_geometry url='#g'/>"
+           "</node></visual_scene></library_visual_scenes><scene><instance_visual_scene url='#w'/>"
+           "</scene></COLLADA>";
+  };
+  directory.write("mm.dae", collada("<unit name='millimeter' meter='0.001'/>"));
+  EXPECT_NEAR(high_end("mm.dae", ""), 0.1, 1e-4);
+  EXPECT_NEAR(high_end("mm.dae", ", scale: 2"), 0.2, 1e-4);
+  directory.write("cm.dae", collada("<unit name='centimeter' meter='0.01'/>"));
+  EXPECT_NEAR(high_end("cm.dae", ""), 1, 1e-4);
 }
 
 /// A sheet without thickness could pass through the touching band unhit: it is a plate.
