@@ -350,6 +350,14 @@ test("what is shown is narrowed to a robot, and robots stand beside each other",
   await page.getByLabel("Find runs").fill(`"${names[2]}"`);
   await page.waitForFunction(() => location.hash.includes("find="));
   assert.equal(await number(), `${of("", names[2]).length} of ${robots.runs.length} runs`);
+  await page.locator("#tab-trade-offs").click();
+  await page.getByLabel("robot").selectOption(names[4]);
+  const bqsa = robots.methods.findIndex((method) => method.variant === "bqsa");
+  const rate = robots.summary.find(
+    (entry) => entry.family === null && entry.robot === names[4] && entry.method === bqsa,
+  ).rate;
+  const line = page.locator("#view tbody tr", { has: page.locator('strong:text-is("bqsa")') }).first();
+  assert.ok((await line.innerText()).includes(`${(100 * rate).toFixed(rate > 0 && rate < 1 ? 1 : 0)} %`));
   assert.deepEqual(await problems(), []);
   await close();
 });

@@ -112,7 +112,7 @@ class TradeOffs implements View {
     const by_scenario = scenarios.length <= kFewScenarios;
     const scenario = by_scenario ? this.#data.scenario_index(state.scenario) : -1;
     const family = !by_scenario && this.#data.families.includes(state.family) ? state.family : null;
-    const robot = !by_scenario && this.#data.robots.includes(state.robot) ? state.robot : null;
+    const robot = scenario < 0 && this.#data.robots.includes(state.robot) ? state.robot : null;
     const points =
       scenario >= 0 ? points_of_scenario(this.#data, scenario) : points_of_scope(this.#data, family, robot);
     const x = quantity(state.x, "time");
@@ -178,7 +178,7 @@ class TradeOffs implements View {
             (value) => this.#link.change({ scenario: value }),
           )
         : scope_choice(this.#data, this.#link, "family", "all scenarios", "of"),
-      !by_scenario && scope_choice(this.#data, this.#link, "robot", "all", "robot"),
+      scenario < 0 && scope_choice(this.#data, this.#link, "robot", "all", "robot"),
       select("across", quantities, x.name, (value) => this.#link.change({ x: value })),
       select("up", quantities, y.name, (value) => this.#link.change({ y: value })),
       select(
