@@ -182,10 +182,12 @@ export class ReportData {
     return scenario.family || scenario.name;
   }
 
-  /** Whether a scenario is of the family and of the robot that are chosen; empty: any. */
+  /** Whether a scenario is of the family and of the robot that are chosen; empty, or no robot to choose: any. */
   of_scope(index: number, { family, robot }: { family: string; robot: string }): boolean {
     const scenario = this.scenario(index);
-    return (family === "" || this.family(scenario) === family) && (robot === "" || scenario.robot === robot);
+    return (
+      (family === "" || this.family(scenario) === family) && (!this.robots.includes(robot) || scenario.robot === robot)
+    );
   }
 
   /** What methods add up to over a family, a robot or both; null: over all. */

@@ -36,10 +36,12 @@ std::string answer_of(const std::function<std::string()>& function) {
     return kInputError + std::string(error.what());
   } catch (const std::exception& error) {
     return kOtherError + std::string(error.what());
+  } catch (...) {
+    return kOtherError + std::string("threw what is no exception");
   }
 }
 
-[[noreturn]] void serve(const std::function<std::string()>& function, const Pipe& pipe) {
+[[noreturn]] void serve(const std::function<std::string()>& function, const Pipe& pipe) noexcept {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, kProcessorTime);

@@ -8,7 +8,7 @@
 
 namespace bqsa::harness {
 
-/// The process of a guarded call ended before it had answered.
+/// The function of a guarded call did not return.
 struct EndedCall : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

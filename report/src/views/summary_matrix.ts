@@ -49,14 +49,16 @@ export class MatrixPart {
     this.#shown = wanted;
     const { scenarios } = this.#data.report;
     const few = scenarios.length <= kFewScenarios;
-    const by_robot = state.rows === "robot" && state.robot === "" && this.#data.robots.length > 1;
+    const { robots } = this.#data;
+    const robot = robots.includes(state.robot) ? state.robot : "";
+    const by_robot = state.rows === "robot" && robot === "" && robots.length > 0;
     const { families } = this.#data;
     const by_family = state.family === "" && families.length > 1 && families.length < scenarios.length;
     redraw(
       this.#controls,
       !few &&
-        state.robot === "" &&
-        this.#data.robots.length > 0 &&
+        robot === "" &&
+        robots.length > 0 &&
         select(
           "rows",
           [
@@ -74,12 +76,12 @@ export class MatrixPart {
     else if (by_robot)
       this.#by_group(
         "Robot",
-        this.#data.robots.map((robot) => ({ family: state.family, robot })),
+        robots.map((one) => ({ family: state.family, robot: one })),
       );
     else if (by_family)
       this.#by_group(
         "Family",
-        families.map((family) => ({ family, robot: state.robot })),
+        families.map((family) => ({ family, robot })),
       );
     else this.#by_scenario(state);
     const narrowed = [
@@ -90,13 +92,12 @@ export class MatrixPart {
           " · ",
           inner_link(this.#link, { family: "" }, "all families"),
         ],
-      state.robot !== "" &&
-        this.#data.robots.length > 0 && [
-          "Robot ",
-          h("strong", {}, short(state.robot)),
-          " · ",
-          inner_link(this.#link, { robot: "" }, "all robots"),
-        ],
+      robot !== "" && [
+        "Robot ",
+        h("strong", {}, short(robot)),
+        " · ",
+        inner_link(this.#link, { robot: "" }, "all robots"),
+      ],
     ].filter((line): line is Exclude<typeof line, false> => line !== false);
     if (!few) this.#host.prepend(...narrowed.map((line) => h("p", {}, ...line)));
     this.#hint.textContent = this.#host.querySelector(".matrix .rate")

@@ -29,8 +29,8 @@ namespace {
 constexpr std::size_t kMaxTriangles = 2'000'000;
 constexpr std::size_t kMaxParts = 1000;
 
-/// Of the largest coordinate: corners this near to each other are meant to be one. Single precision and
-/// files with six digits round by less.
+/// Of the largest coordinate: corners this near to each other are meant to be one. Single precision
+/// rounds by less.
 constexpr double kWeld = 1e-6;
 
 struct Mesh {
@@ -71,7 +71,8 @@ std::string ending_of(const std::string& name) {
 std::vector<float> imported(const std::string& name, const std::string& text) {
   const std::string ending = ending_of(name);
   Assimp::Importer importer;
-  if (ending.empty() || !importer.IsExtensionSupported(ending)) {
+  const bool is_of_many_formats = ending == "xml";
+  if (ending.empty() || is_of_many_formats || !importer.IsExtensionSupported(ending)) {
     refuse(name, "a mesh file (.stl, .obj, .ply, .dae or another that Assimp reads)",
            ending.empty() ? "no ending" : "." + ending);
   }
@@ -110,10 +111,11 @@ std::vector<float> imported_guarded(const std::string& name, const std::string& 
                          corners.size() * sizeof(float));
     });
   } catch (const EndedCall& ended) {
-    refuse(name, "a mesh that can be read", fmt::format("one on which Assimp {}", ended.what()));
+    refuse(name, "a mesh that can be read",
+           fmt::format("one that Assimp does not survive: {}", ended.what()));
   }
   std::vector<float> corners(bytes.size() / sizeof(float));
-  std::memcpy(corners.data(), bytes.data(), corners.size() * sizeof(float));
+  if (!corners.empty()) std::memcpy(corners.data(), bytes.data(), bytes.size());
   return corners;
 }
 
@@ -144,17 +146,18 @@ std::vector<int> places_of(const std::vector<Eigen::Vector3d>& vertices) {
     largest = std::max(largest, p.cwiseAbs().maxCoeff());
   }
   const double near = kWeld * largest;
+  const double width = 4 * near;  // of a cell, more than that of the cube around what is near
   using Cell = std::array<std::int64_t, 3>;
   const auto cell_of = [&](const Eigen::Vector3d& p) {
     Cell cell{};
-    if (near > 0) {
+    if (width > 0) {
       for (int k = 0; k < 3; ++k) {
-        cell[static_cast<std::size_t>(k)] = std::llround(p(k) / (2 * near));
+        cell[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(std::floor(p(k) / width));
       }
     }
     return cell;
   };
-  std::map<Cell, std::vector<int>> known;  // those that stand for others, by cells of twice `near`
+  std::map<Cell, std::vector<int>> known;  // those that stand for others
   std::vector<int> result;
   result.reserve(vertices.size());
   for (const Eigen::Vector3d& p : vertices) {
@@ -226,7 +229,10 @@ std::optional<double> enclosed_volume(const Mesh& part) {
 
 }  // namespace
 
-bool states_unit(const std::string& name) { return ending_of(name) == "dae"; }
+bool states_unit(const std::string& name) {
+  const std::string ending = ending_of(name);
+  return ending == "dae" || ending == "zae";
+}
 
 std::vector<MeshPart> read_mesh(const std::string& name, const std::string& text) {
   Mesh mesh = mesh_of(name, imported_guarded(name, text));

@@ -20,7 +20,7 @@ struct MeshPart {
 };
 
 /// The parts of a mesh, in the order of their first vertices. Triangles are connected by corners in
-/// the same place, or nearer to each other than 1e-6 of the largest coordinate; polygons are triangulated, points and lines left out, the places of a scene's
+/// the same place, or nearer than 1e-6 of the largest coordinate to the first corner there; polygons are triangulated, points and lines left out, the places of a scene's
 /// nodes applied. Since a part counts as solid as its hull, triangles may leave holes, turn either
 /// way or share an edge by threes.
 ///

@@ -52,6 +52,7 @@ TEST(GuardedCall, SaysHowItsProcessEnded) {
   EXPECT_THAT(end_of([]() -> std::string { std::_Exit(3); }), HasSubstr("exit status 3"));
   EXPECT_THAT(end_of([]() -> std::string { std::_Exit(0); }), HasSubstr("exit status 0"));
   EXPECT_EQ(end_of([]() -> std::string { throw std::runtime_error("no luck"); }), "no luck");
+  EXPECT_EQ(end_of([]() -> std::string { throw 1; }), "threw what is no exception");
 }
 
 }  // namespace
