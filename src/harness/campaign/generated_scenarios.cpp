@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <map>
 #include <sstream>
 #include <system_error>
@@ -20,7 +21,12 @@ namespace {
 constexpr std::size_t kMaxScenarioBytes = std::size_t{1} << 20;
 constexpr std::size_t kMaxListBytes = std::size_t{1} << 25;
 constexpr std::size_t kHashDigits = 64;
-constexpr int kMadeAgain = 2;  // families of two kinds of arms make one of each
+
+/// So many scenarios have every arm of a family once: of those of two kinds of arms, every other is planar.
+int count_of_all_arms(const Family& family, const std::vector<Arm>& arms) {
+  const int spatial = std::max(static_cast<int>(arms.size()), 1);
+  return family.planar ? 2 * spatial : spatial;
+}
 
 /// Hashes by file name, from lines as `sha256sum` prints them; empty if there is no list.
 std::map<std::string, std::string> read_hashes(const fs::path& list) {
@@ -76,12 +82,13 @@ std::vector<PlannedScenario> generate_scenarios(const GeneratedScenarios& wanted
   }
   const fs::path list = directory / fmt::format("{}_s{}.sha256", family.name, wanted.seed);
   const std::map<std::string, std::string> hashes = read_hashes(list);
+  const int made_again = count_of_all_arms(family, arms);
   std::vector<PlannedScenario> scenarios;
   Rejections rejections;
   for (int index = 0; index < wanted.count; ++index) {
     const std::string name = generated_name(family, wanted.seed, index);
     const fs::path file = directory / (name + ".yaml");
-    if (index >= kMadeAgain && was_made(file, hashes)) {
+    if (index >= made_again && was_made(file, hashes)) {
       scenarios.push_back({file, name, hashes.at(file.filename().string())});
     } else {
       const std::string text = generate(family, wanted.seed, index, arms, rejections).yaml;

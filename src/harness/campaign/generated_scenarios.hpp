@@ -12,7 +12,8 @@ namespace bqsa::harness {
 
 /// Sees to it that the scenarios lie in the directory. Since making one takes as long as some runs, those
 /// that a list of hashes beside them, `<family>_s<seed>.sha256`, says to have been made before are not
-/// made again, but for the first two, which show whether the generator still makes the same.
+/// made again, but for the first of each arm, which show whether generator and robots still make the
+/// same.
 /// @param made  called after each
 /// @throws InputError if a file is there with other bytes, or one cannot be written
 std::vector<PlannedScenario> generate_scenarios(const GeneratedScenarios& wanted,

@@ -297,6 +297,32 @@ TEST(Plan, AListOfHashesIsNotBelievedWhereTheGeneratorMakesAnother) {
             "another one");
 }
 
+TEST(Plan, WhicheverRobotHasChangedItIsNoticed) {
+  const TestDirectory directory;
+  const std::vector<std::string> robots = {"robots/kuka_lbr_iiwa14.yaml",
+                                           "robots/franka_panda.yaml", "robots/ur5e.yaml",
+                                           "robots/ur10e.yaml", "robots/puma560.yaml"};
+  fs::create_directory(directory.path() / "robots");
+  for (const std::string& robot : robots) {
+    directory.write(robot, content_of(fs::path(BQSA_SOURCE_DIR) / robot));
+  }
+  const std::string text =
+      with(campaign_text(), "more]",
+           "{generate: {family: corridor, seed: 7, count: 6, robots: robots}}]");
+  const fs::path out = directory.path() / "out";
+  write_scenarios(directory);
+  make_plan(load(directory, text), out);
+  make_plan(load(directory, text), out);
+  for (const std::string& robot : robots) {
+    const std::string before = content_of(directory.path() / robot);
+    directory.write(robot, with(before, "\n  name: ", "\n  name: New "));
+    EXPECT_THAT(message_of(directory, [&] { make_plan(load(directory, text), out); }),
+                testing::StartsWith("out/scenarios/corridor_s7_0000"))
+        << robot;
+    directory.write(robot, before);
+  }
+}
+
 TEST(Plan, TellsHowManyScenariosAreDone) {
   const TestDirectory directory;
   write_scenarios(directory);
