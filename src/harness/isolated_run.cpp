@@ -204,6 +204,8 @@ RunOutcome unanswered(const Problem& problem, const MethodEntry& method, const O
   outcome.claim = observed.timed_out       ? Claim::kTimedOut
                   : observed.out_of_memory ? Claim::kOutOfMemory
                                            : Claim::kCrashed;
+  outcome.killed = outcome.claim == Claim::kCrashed && WIFSIGNALED(observed.status) &&
+                   WTERMSIG(observed.status) == SIGKILL;
   outcome.message =
       observed.timed_out ? "stopped after " + std::to_string(limits.wall_s) + " s"
       : observed.out_of_memory

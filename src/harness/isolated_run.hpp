@@ -9,7 +9,7 @@
 namespace bqsa::harness {
 
 struct RunLimits {
-  double wall_s = 120;                       ///< from fork to the last answer [s]
+  double wall_s = 120;                       ///< from fork until the method has ended [s]
   std::uint64_t memory_bytes = 4ULL << 30U;  ///< beyond what the harness itself has [byte]
 };
 

@@ -150,6 +150,7 @@ void transfer(Archive& archive, RunOutcome& outcome) {
   transfer(archive, outcome.message);
   archive.number(outcome.inputs_changed);
   archive.number(outcome.work_hidden);
+  archive.number(outcome.killed);
   archive.number(outcome.free_ticks);
   archive.number(outcome.clamped_ticks);
   archive.number(outcome.unclaimed_ticks);

@@ -167,9 +167,10 @@ void make_and_run(const Problem& problem, const MethodEntry& entry,
     outcome.times.plan_s = seconds_since(start);
     outcome.claim = plan.solved ? Claim::kSuccess : Claim::kUnsolved;
     outcome.trajectory = std::move(plan.trajectory);
-    if (outcome.times.plan_s > settings.plan_budget_s + RunSettings::kPlanGrace) {
+    const double spent_s = outcome.times.prepare_s + outcome.times.plan_s;
+    if (spent_s > settings.plan_budget_s + RunSettings::kPlanGrace) {
       outcome.claim = Claim::kTimedOut;
-      outcome.message = "planned for " + std::to_string(outcome.times.plan_s) +
+      outcome.message = "prepared and planned for " + std::to_string(spent_s) +
                         " s, allowed were " + std::to_string(settings.plan_budget_s) + " s";
     }
   } else {
@@ -216,6 +217,10 @@ RunOutcome run_method(const Problem& problem, const MethodEntry& entry,
   } catch (const std::bad_alloc&) {
     outcome.claim = Claim::kOutOfMemory;
     outcome.message = "asked for more memory than there was";
+  } catch (const MethodKilled& killed) {
+    outcome.claim = Claim::kCrashed;
+    outcome.message = killed.what();
+    outcome.killed = true;
   } catch (const std::exception& error) {
     outcome.claim = Claim::kCrashed;
     outcome.message = error.what();

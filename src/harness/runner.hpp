@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -24,9 +25,14 @@ enum class Claim {
   kOutOfMemory,
 };
 
+/// Thrown by a method whose own process was ended by SIGKILL.
+struct MethodKilled : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 struct RunSettings {
   std::uint64_t seed = 1;     ///< of all randomness: of a planning method, of the noise
-  double plan_budget_s = 10;  ///< wall time that a planning method may use [s]
+  double plan_budget_s = 10;  ///< wall time that a planning method may use, `prepare` included [s]
 
   /// A plan that takes this much longer than its budget is too late [s].
   static constexpr double kPlanGrace = 1;
@@ -87,6 +93,9 @@ struct RunOutcome {
 
   bool inputs_changed = false;  ///< the method wrote into the problem or into what a step was told
   bool work_hidden = false;     ///< it used the processor beyond what its times show
+
+  /// Crashed: by SIGKILL from outside, as the kernel sends it when memory runs out.
+  bool killed = false;
 
   int free_ticks = 0;
   int clamped_ticks = 0;

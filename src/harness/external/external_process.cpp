@@ -19,6 +19,7 @@
 
 #include "harness/external/command_words.hpp"
 #include "harness/process_state.hpp"
+#include "harness/runner.hpp"
 #include "harness/text_file.hpp"
 
 namespace bqsa::harness {
@@ -230,16 +231,22 @@ bool ExternalProcess::has_ended_within(int milliseconds) {
 }
 
 /// A program that has closed a stream, and most often has ended.
+/// @throws MethodKilled if it was ended by SIGKILL
 ExternalFault ExternalProcess::gone(const ExternalRequest& request, const char* what) {
   std::string found = what;
-  if (has_ended_within(kTimeToDie)) {
+  const bool ended = has_ended_within(kTimeToDie);
+  if (ended) {
     found = end_text(status_);
   } else {
     found += ", the program lives on";
   }
   const std::string said = last_line(end_of_errors_);
-  return fault(request, fmt::format("expected one line, got none: {}{}{}", found,
-                                    said.empty() ? "" : ": ", said));
+  ExternalFault result = fault(request, fmt::format("expected one line, got none: {}{}{}", found,
+                                                    said.empty() ? "" : ": ", said));
+  if (ended && WIFSIGNALED(status_) && WTERMSIG(status_) == SIGKILL) {
+    throw MethodKilled(result.what());
+  }
+  return result;
 }
 
 }  // namespace bqsa::harness

@@ -1,10 +1,7 @@
 #include "harness/results/pair_run.hpp"
 
 #include <algorithm>
-#include <csignal>
 #include <vector>
-
-#include "harness/process_state.hpp"
 
 namespace bqsa::harness {
 namespace {
@@ -73,7 +70,7 @@ JudgedPair judged_pair(const Scenario& scenario, const Judge& judge, const Metho
     run.trajectory_error = error.what();
   }
   run.claim = outcome.claim;
-  run.killed = outcome.claim == Claim::kCrashed && outcome.message.starts_with(end_text(SIGKILL));
+  run.killed = outcome.killed;
   run.record = run_record(scenario, method, outcome, diagnosis_of(problem, outcome), judgement,
                           motion_quality(problem, outcome.trajectory, judgement.rows), machine,
                           circumstances, run.trajectory ? file : "");

@@ -188,7 +188,14 @@ TEST_F(CampaignTest, DamagedAndForeignLinesAreToldAndLeftAlone) {
   EXPECT_THAT(content_of(path("out/runs.damaged.jsonl")), HasSubstr("not JSON at all"));
 }
 
-TEST_F(CampaignTest, ARunThatIsKilledFromOutsideIsNoCrashOfItsMethod) {
+/// Whether it is the process of the run that is killed, or the external program below it.
+class KilledRun : public CampaignTest, public testing::WithParamInterface<bool> {};
+
+INSTANTIATE_TEST_SUITE_P(OfEither, KilledRun, testing::Bool(), [](const auto& of_program) {
+  return of_program.param ? "program" : "process";
+});
+
+TEST_P(KilledRun, IsNoCrashOfItsMethod) {
   const std::string hangs = "hangs=/usr/bin/python3 " BQSA_SOURCE_DIR
                             "/tests/harness/external/faulty_method.py hangs prepare";
   write_campaign("[bqsa, hangs]", "limits: {time: 60}\n");
@@ -205,7 +212,9 @@ TEST_F(CampaignTest, ARunThatIsKilledFromOutsideIsNoCrashOfItsMethod) {
   while (program.runs() && (process = run_process()) == 0) {
   }
   ASSERT_GT(process, 0);
-  kill(process, SIGKILL);
+  const std::vector<pid_t> external = children_of(process);
+  ASSERT_EQ(external.size(), 1U);
+  kill(GetParam() ? external[0] : process, SIGKILL);
   // The next one hangs only after what became of this one was dealt with.
   pid_t next = process;
   while (program.runs() && (next == process || next == 0)) next = run_process();

@@ -160,12 +160,16 @@ TEST_F(Canaries, Number07SleepsPastTheDeadline) {
 }
 
 TEST_F(Canaries, Number07PlansPastItsBudget) {
+  static constexpr double kBudget = 0.01;
   class Slow final : public PlanningMethod {
    public:
-    void prepare(const Problem& problem) override { problem_ = &problem; }
-    Plan plan(double budget_s, std::uint64_t) override {
-      std::this_thread::sleep_for(
-          std::chrono::duration<double>(budget_s + RunSettings::kPlanGrace + 0.1));
+    explicit Slow(bool to_prepare) : to_prepare_(to_prepare) {}
+    void prepare(const Problem& problem) override {
+      problem_ = &problem;
+      if (to_prepare_) waste();
+    }
+    Plan plan(double, std::uint64_t) override {
+      if (!to_prepare_) waste();
       Plan plan{.solved = true, .trajectory = {}};
       for (int tick = 0; tick <= problem_->ticks; ++tick) {
         plan.trajectory.t.push_back(problem_->time(tick));
@@ -175,14 +179,22 @@ TEST_F(Canaries, Number07PlansPastItsBudget) {
     }
 
    private:
+    static void waste() {
+      std::this_thread::sleep_for(
+          std::chrono::duration<double>(kBudget + RunSettings::kPlanGrace + 0.1));
+    }
+    bool to_prepare_;
     const Problem* problem_ = nullptr;
   };
-  MethodEntry entry =
-      entry_of("slow", [](const ParameterValues&) { return std::make_unique<Slow>(); });
-  entry.capabilities.plans = true;
-  const RunOutcome outcome = run_isolated(scenario_.problem, entry, ParameterValues({}),
-                                          {.plan_budget_s = 0.01}, RunLimits{});
-  EXPECT_EQ(outcome.claim, Claim::kTimedOut);
+  for (const bool to_prepare : {false, true}) {
+    MethodEntry entry = entry_of("slow", [to_prepare](const ParameterValues&) {
+      return std::make_unique<Slow>(to_prepare);
+    });
+    entry.capabilities.plans = true;
+    const RunOutcome outcome = run_isolated(scenario_.problem, entry, ParameterValues({}),
+                                            {.plan_budget_s = kBudget}, RunLimits{});
+    EXPECT_EQ(outcome.claim, Claim::kTimedOut) << to_prepare;
+  }
 }
 
 TEST_F(Canaries, Number08Crashes) {
