@@ -119,7 +119,11 @@ WorkerPool::WorkerPool(int processes, Work work) : work_(std::move(work)) {
 
 WorkerPool::~WorkerPool() {
   for (const auto& worker : workers_) {
-    if (worker->process > 0) kill(worker->process, SIGKILL);
+    if (worker->process <= 0) continue;
+    // What a method has started would outlive those who would end it.
+    const std::vector<pid_t> below = descendants_of(worker->process);
+    kill(worker->process, SIGKILL);
+    for (const pid_t process : below) kill(process, SIGKILL);
   }
   for (const auto& worker : workers_) {
     if (worker->process > 0) waitpid(worker->process, nullptr, 0);
