@@ -206,7 +206,8 @@ TEST_F(Page, AddsUpByRobotWhereTwoHaveNames) {
   EXPECT_EQ(found, expected);
 
   name_robots("tall", "tall");
-  for (const nlohmann::json& entry : as_read(results_.page())["summary"]) {
+  const nlohmann::json of_one_robot = as_read(results_.page());
+  for (const nlohmann::json& entry : of_one_robot["summary"]) {
     EXPECT_TRUE(entry["robot"].is_null());
   }
 }
