@@ -308,7 +308,7 @@ TEST(Plan, WhicheverRobotHasChangedItIsNoticed) {
   }
   const std::string text =
       with(campaign_text(), "more]",
-           "{generate: {family: corridor, seed: 7, count: 6, robots: robots}}]");
+           "{generate: {family: stretched, seed: 7, count: 6, robots: robots}}]");
   const fs::path out = directory.path() / "out";
   write_scenarios(directory);
   make_plan(load(directory, text), out);
@@ -317,7 +317,7 @@ TEST(Plan, WhicheverRobotHasChangedItIsNoticed) {
     const std::string before = content_of(directory.path() / robot);
     directory.write(robot, with(before, "\n  name: ", "\n  name: New "));
     EXPECT_THAT(message_of(directory, [&] { make_plan(load(directory, text), out); }),
-                testing::StartsWith("out/scenarios/corridor_s7_0000"))
+                testing::StartsWith("out/scenarios/stretched_s7_0000"))
         << robot;
     directory.write(robot, before);
   }
